@@ -1,0 +1,1 @@
+//! derive(Params): struct fields become a parameter table.

@@ -1,0 +1,1 @@
+//! Shapes, meshes, importers and ray casting.

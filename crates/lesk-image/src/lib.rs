@@ -1,0 +1,1 @@
+//! Film, filters, tone mapping and image files.

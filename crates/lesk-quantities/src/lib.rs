@@ -1,0 +1,1 @@
+//! Radiometry, photometry and units.

@@ -1,0 +1,1 @@
+//! Scene files: text to data, all errors at once.

@@ -1,0 +1,1 @@
+//! Shader source from the recorded formulas.

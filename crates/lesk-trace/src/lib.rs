@@ -1,0 +1,1 @@
+//! Path tracing: scene to film.

@@ -1,0 +1,1 @@
+//! Lesk for Rust users: one crate over all parts.
