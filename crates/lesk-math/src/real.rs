@@ -96,12 +96,16 @@ pub trait Real:
     /// `self` to the power of a small constant, by repeated multiplication.
     #[inline(always)]
     fn powi(self, n: u32) -> Self {
-        match n {
-            0 => Self::ONE,
-            1 => self,
-            n if n % 2 == 0 => (self * self).powi(n / 2),
-            n => self * (self * self).powi(n / 2),
+        // square and multiply; a recursive function would not be inlined, and a loop around it not vectorised
+        let (mut result, mut square, mut n) = (Self::ONE, self, n);
+        while n > 1 {
+            if n % 2 == 1 {
+                result = result * square;
+            }
+            square = square * square;
+            n /= 2;
         }
+        if n == 1 { result * square } else { result }
     }
     #[inline(always)]
     fn exp(self) -> Self {

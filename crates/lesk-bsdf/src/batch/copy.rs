@@ -1,0 +1,114 @@
+//! Between the caller's arrays and the rows of a block.
+
+use super::{Column, Out};
+use crate::kernels::{BLOCK, Row};
+use lesk_math::Isa;
+
+/// The transposing loops of one instruction set.
+pub(super) struct Copies {
+    split3: unsafe fn(&[f32], &mut [Row]),
+    join3: unsafe fn(&[Row], &mut [f32]),
+}
+
+#[inline(always)]
+fn split3(from: &[f32], to: &mut [Row]) {
+    let [x, y, z] = to else { return };
+    for (i, v) in from.as_chunks::<3>().0.iter().take(BLOCK).enumerate() {
+        x[i] = v[0];
+        y[i] = v[1];
+        z[i] = v[2];
+    }
+}
+
+#[inline(always)]
+fn join3(from: &[Row], to: &mut [f32]) {
+    let [x, y, z] = from else { return };
+    for (i, v) in to.as_chunks_mut::<3>().0.iter_mut().take(BLOCK).enumerate() {
+        *v = [x[i], y[i], z[i]];
+    }
+}
+
+macro_rules! copies {
+    ($($feature:literal)?) => {{
+        $(#[target_feature(enable = $feature)])?
+        unsafe fn split(from: &[f32], to: &mut [Row]) {
+            split3(from, to)
+        }
+        $(#[target_feature(enable = $feature)])?
+        unsafe fn join(from: &[Row], to: &mut [f32]) {
+            join3(from, to)
+        }
+        Copies { split3: split, join3: join }
+    }};
+}
+
+impl Copies {
+    pub(super) fn for_isa(isa: Isa) -> Copies {
+        match isa {
+            #[cfg(target_arch = "x86_64")]
+            Isa::Avx2 => copies!("avx2,fma"),
+            #[cfg(target_arch = "x86_64")]
+            Isa::Avx512 => copies!("avx512f,avx512vl,avx512bw,avx512dq,avx2,fma"),
+            _ => copies!(),
+        }
+    }
+}
+
+/// Elements `start..start + n` of six columns: in place where contiguous, else through `rows`.
+pub(super) fn gather<'a>(
+    copies: &Copies,
+    columns: &[Column<'a>; 6],
+    rows: &'a mut [Row; 6],
+    start: usize,
+    n: usize,
+) -> [&'a [f32]; 6] {
+    let mut views = [&[] as &[f32]; 6];
+    for (half, rows) in rows.as_chunks_mut::<3>().0.iter_mut().enumerate() {
+        let [x, y, z] = [columns[3 * half], columns[3 * half + 1], columns[3 * half + 2]];
+        let together = x.stride == 3
+            && y.stride == 3
+            && z.stride == 3
+            && std::ptr::eq(y.data.as_ptr(), x.data.as_ptr().wrapping_add(1))
+            && std::ptr::eq(z.data.as_ptr(), x.data.as_ptr().wrapping_add(2));
+        if together && x.data.len() >= 3 * (start + n) {
+            // SAFETY: `Copies::for_isa` is called with an available instruction set only
+            unsafe { (copies.split3)(&x.data[3 * start..3 * (start + n)], rows) };
+        }
+        for (c, (column, row)) in [x, y, z].into_iter().zip(rows).enumerate() {
+            views[3 * half + c] = if column.stride == 1 {
+                &column.data[start..start + n]
+            } else {
+                if !together {
+                    for i in 0..n {
+                        row[i] = column.data[(start + i) * column.stride];
+                    }
+                }
+                &row[..n]
+            };
+        }
+    }
+    views
+}
+
+/// Writes the first `n` values of each row to elements `start..start + n` of the output.
+pub(super) fn scatter(copies: &Copies, rows: &[Row], out: &mut Out, start: usize, n: usize) {
+    match out {
+        Out::Rows(targets) => {
+            for (row, target) in rows.iter().zip(targets.iter_mut()) {
+                target[start..start + n].copy_from_slice(&row[..n]);
+            }
+        }
+        Out::Interleaved(target) if rows.len() == 3 => {
+            // SAFETY: as in `gather`
+            unsafe { (copies.join3)(rows, &mut target[3 * start..3 * (start + n)]) };
+        }
+        Out::Interleaved(target) => {
+            let width = rows.len();
+            for (c, row) in rows.iter().enumerate() {
+                for i in 0..n {
+                    target[(start + i) * width + c] = row[i];
+                }
+            }
+        }
+    }
+}

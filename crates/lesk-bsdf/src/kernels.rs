@@ -1,0 +1,155 @@
+//! Loops over arrays of directions, compiled once per model and instruction set, and the list of them.
+//!
+//! The loops work on blocks of at most [`BLOCK`] directions in structure-of-arrays form; `batch` cuts arrays of any
+//! layout into such blocks.
+
+use crate::bsdf::{self, Bsdf};
+use crate::model::Domain;
+use crate::params::{Params, flat_len};
+use lesk_math::{CHANNELS, Isa, Lane, Vec3, vec3};
+
+/// Directions per block: all arrays of a block stay in the first-level cache.
+pub const BLOCK: usize = 512;
+
+/// The longest flat parameter table.
+pub const MAX_PARAMS: usize = 32;
+
+/// Outputs of a draw: wi, weight, pdf, delta.
+pub const DRAW_OUTPUTS: usize = 3 + CHANNELS + 2;
+
+/// One array of a block; only the first `n` values are used.
+pub type Row = [f32; BLOCK];
+
+/// One block: `n` directions, parameters of one value each or of `n` values each.
+pub struct Block<'a> {
+    pub n: usize,
+    /// One entry per flat parameter, of length 1 (`uniform`) or at least `n`.
+    pub params: &'a [&'a [f32]],
+    pub uniform: bool,
+    /// `wi` and `wo` for eval and pdf; `u` and `wo` for draw.
+    pub first: [&'a [f32]; 3],
+    pub second: [&'a [f32]; 3],
+}
+
+/// A loop over one block, writing one row per output.
+pub type Kernel = unsafe fn(&Block, &mut [Row]);
+
+/// The loops of one instruction set.
+#[derive(Clone, Copy)]
+pub struct KernelSet {
+    pub eval: Kernel,
+    pub pdf: Kernel,
+    pub draw: Kernel,
+}
+
+/// The loops of one model.
+pub struct Kernels {
+    pub baseline: KernelSet,
+    #[cfg(target_arch = "x86_64")]
+    pub avx2: KernelSet,
+    #[cfg(target_arch = "x86_64")]
+    pub avx512: KernelSet,
+}
+
+impl Kernels {
+    /// The loops for an instruction set that this processor has.
+    ///
+    /// # Panics
+    /// If the processor lacks it.
+    pub fn for_isa(&self, isa: Isa) -> &KernelSet {
+        assert!(isa.is_available(), "this processor lacks {}", isa.name());
+        match isa {
+            Isa::Baseline => &self.baseline,
+            #[cfg(target_arch = "x86_64")]
+            Isa::Avx2 => &self.avx2,
+            #[cfg(target_arch = "x86_64")]
+            Isa::Avx512 => &self.avx512,
+            #[cfg(not(target_arch = "x86_64"))]
+            _ => &self.baseline,
+        }
+    }
+}
+
+/// The body that a loop runs for one direction: reads element `i`, writes element `i` of each row.
+pub(crate) trait Body<const FMA: bool, B> {
+    const OUTPUTS: usize;
+    fn run(domain: Domain, model: &B, first: Vec3<Lane<FMA>>, second: Vec3<Lane<FMA>>, i: usize, out: &mut [Row]);
+}
+
+pub(crate) struct Eval;
+impl<const FMA: bool, B: Bsdf<Lane<FMA>>> Body<FMA, B> for Eval {
+    const OUTPUTS: usize = CHANNELS;
+    #[inline(always)]
+    fn run(domain: Domain, model: &B, wi: Vec3<Lane<FMA>>, wo: Vec3<Lane<FMA>>, i: usize, out: &mut [Row]) {
+        let f = bsdf::eval(domain, model, wi, wo);
+        for c in 0..CHANNELS {
+            out[c][i] = f.0[c].0;
+        }
+    }
+}
+
+pub(crate) struct Pdf;
+impl<const FMA: bool, B: Bsdf<Lane<FMA>>> Body<FMA, B> for Pdf {
+    const OUTPUTS: usize = 1;
+    #[inline(always)]
+    fn run(domain: Domain, model: &B, wi: Vec3<Lane<FMA>>, wo: Vec3<Lane<FMA>>, i: usize, out: &mut [Row]) {
+        out[0][i] = bsdf::pdf(domain, model, wi, wo).0;
+    }
+}
+
+pub(crate) struct Draw;
+impl<const FMA: bool, B: Bsdf<Lane<FMA>>> Body<FMA, B> for Draw {
+    const OUTPUTS: usize = DRAW_OUTPUTS;
+    #[inline(always)]
+    fn run(domain: Domain, model: &B, u: Vec3<Lane<FMA>>, wo: Vec3<Lane<FMA>>, i: usize, out: &mut [Row]) {
+        let s = bsdf::draw(domain, model, wo, u.to_array());
+        out[0][i] = s.wi.x.0;
+        out[1][i] = s.wi.y.0;
+        out[2][i] = s.wi.z.0;
+        for c in 0..CHANNELS {
+            out[3 + c][i] = s.weight.0[c].0;
+        }
+        out[3 + CHANNELS][i] = s.pdf.0;
+        out[4 + CHANNELS][i] = s.delta.0;
+    }
+}
+
+/// The loop. Everything in it is inlined into the caller, whose instruction set it thereby gets.
+#[inline(always)]
+pub(crate) fn run_block<const FMA: bool, B, F>(domain: Domain, block: &Block, out: &mut [Row])
+where
+    B: Params<Lane<FMA>>,
+    F: Body<FMA, B>,
+{
+    let n = block.n.min(BLOCK);
+    let params = block.params;
+    let [ax, ay, az] = [&block.first[0][..n], &block.first[1][..n], &block.first[2][..n]];
+    let [bx, by, bz] = [&block.second[0][..n], &block.second[1][..n], &block.second[2][..n]];
+    let out = &mut out[..F::OUTPUTS];
+    let lane = |row: &[f32], i: usize| Lane::<FMA>(row[i]);
+    if block.uniform {
+        let model = B::gather(|p| Lane(params[p][0]));
+        for i in 0..n {
+            let (a, b) = (vec3(lane(ax, i), lane(ay, i), lane(az, i)), vec3(lane(bx, i), lane(by, i), lane(bz, i)));
+            F::run(domain, &model, a, b, i, out);
+        }
+    } else {
+        let rows = rows_of::<B, FMA>(params, n);
+        for i in 0..n {
+            // SAFETY: `rows_of` checked that each row has n values; i < n
+            let model = B::gather(|p| Lane(unsafe { *rows[p].add(i) }));
+            let (a, b) = (vec3(lane(ax, i), lane(ay, i), lane(az, i)), vec3(lane(bx, i), lane(by, i), lane(bz, i)));
+            F::run(domain, &model, a, b, i, out);
+        }
+    }
+}
+
+/// Pointers to the first `n` values of each parameter: a slice of slices in the loop would keep it from vectorising.
+#[inline(always)]
+fn rows_of<B: Params<Lane<FMA>>, const FMA: bool>(params: &[&[f32]], n: usize) -> [*const f32; MAX_PARAMS] {
+    let mut rows = [std::ptr::null(); MAX_PARAMS];
+    for p in 0..const { flat_len(B::SPECS) } {
+        rows[p] = params[p][..n].as_ptr();
+    }
+    rows
+}

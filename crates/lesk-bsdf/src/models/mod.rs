@@ -1,0 +1,7 @@
+//! THE LIST: one line per model, in reading order; the name is the file, the id and the page.
+
+crate::registry::registry! {
+    lambert: Lambert,
+    ggx: Ggx,
+    rough_dielectric: RoughDielectric,
+}

@@ -1,0 +1,40 @@
+//! Reflectance of a smooth boundary.
+
+use lesk_math::{Color, Real};
+
+/// Schlick's approximation (schlick1994): F0 + (1 - F0)(1 - cos)^5.
+#[inline(always)]
+pub fn schlick<R: Real>(f0: Color<R>, cos_theta: R) -> Color<R> {
+    let m = cos_theta.one_minus().powi(5);
+    f0.map(|f0| m.fma(f0.one_minus(), f0))
+}
+
+/// Exact unpolarised reflectance of a dielectric boundary; `cos_theta` >= 0 on the side where light comes from,
+/// `eta` = n(other side) / n(this side). Total internal reflection gives 1.
+#[inline(always)]
+pub fn dielectric<R: Real>(eta: R, cos_theta: R) -> R {
+    let g2 = eta.fma(eta, cos_theta.fma(cos_theta, -R::ONE));
+    let g = g2.safe_sqrt();
+    let c = cos_theta;
+    let a = (g - c) / (g + c);
+    let b = (c * (g + c) - R::ONE) / (c * (g - c) + R::ONE);
+    let f = R::HALF * a * a * (R::ONE + b * b);
+    R::select(g2.gt(R::ZERO), f, R::ONE)
+}
+
+/// Exact unpolarised reflectance of a metal with the complex index eta + i k, seen from vacuum.
+#[inline(always)]
+pub fn conductor<R: Real>(eta: R, k: R, cos_theta: R) -> R {
+    let c2 = cos_theta * cos_theta;
+    let s2 = c2.one_minus();
+    let (eta2, k2) = (eta * eta, k * k);
+    let t0 = eta2 - k2 - s2;
+    let a2b2 = t0.fma(t0, R::lit(4.0) * eta2 * k2).safe_sqrt();
+    let a = (R::HALF * (a2b2 + t0)).safe_sqrt();
+    let t1 = a2b2 + c2;
+    let t2 = R::TWO * a * cos_theta;
+    let t3 = c2.fma(a2b2, s2 * s2);
+    let t4 = t2 * s2;
+    // (Rs + Rp)/2 with Rp = Rs (t3 - t4)/(t3 + t4): (t1-t2)/(t1+t2) * t3/(t3+t4)
+    (t1 - t2) * t3 / ((t1 + t2) * (t3 + t4))
+}

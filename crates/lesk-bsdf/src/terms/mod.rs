@@ -1,0 +1,6 @@
+//! The parts of models, one function per published formula, usable alone.
+
+pub mod fresnel;
+pub mod lobe;
+pub mod masking;
+pub mod ndf;
