@@ -1,1 +1,38 @@
-//! Radiometry, photometry and units.
+//! Radiometry, photometry and units: what a number means.
+//!
+//! ```
+//! use lesk_quantities::{Dimension, Quantity, Unit, source};
+//!
+//! let flux = Quantity::parse_as("1.1 klm", &[Dimension::LuminousFlux])?;
+//! let distance = Quantity::parse_as("150 cm", &[Dimension::Length])?;
+//! let intensity = source::point_intensity(flux.si());
+//! let illuminance = intensity / (distance.si() * distance.si());
+//! assert!((illuminance - 38.9045).abs() < 5e-5); // lx
+//! assert_eq!(flux.to(Unit::parse("lm")?)?, 1100.0);
+//! # Ok::<(), lesk_quantities::QuantityError>(())
+//! ```
+//!
+//! - [`units`]: quantities as people write them, `1100 lm`, `5 cm`, `2700 K`.
+//! - [`photometry`]: K_m, V(λ), luminous efficacy.
+//! - [`observer`]: the CIE 1931 2° colour matching functions.
+//! - [`radiometry`]: the black body and photons.
+//! - [`colorspace`]: XYZ and linear Rec.709.
+//! - [`source`]: flux, intensity, luminance and illuminance of simple sources.
+//! - [`exposure`]: EV100 and the luminances that it stands for.
+//!
+//! It holds numbers only: no light knows its place or shape here, and there is no spectral rendering. A watt becomes a
+//! lumen only through a spectrum, so a conversion between a radiometric and a photometric unit is refused.
+
+mod error;
+
+pub mod colorspace;
+pub mod exposure;
+pub mod observer;
+pub mod photometry;
+pub mod radiometry;
+pub mod source;
+pub mod units;
+
+pub use error::QuantityError;
+pub use photometry::K_M;
+pub use units::{Dimension, Quantity, Unit};
