@@ -51,6 +51,8 @@ impl ParamSpec {
 
 /// A model's parameters as a list of specifications and back again; derived, see `lesk_derive::Params`.
 pub trait Params<R>: Sized {
+    /// The doc comment of the struct: Markdown with LaTeX between `$$`.
+    const DOC: &'static str;
     const SPECS: &'static [ParamSpec];
 
     /// Builds the parameters from the flat table, entry by entry.

@@ -115,6 +115,7 @@ macro_rules! instantiate {
         pub static COMPILED: crate::scatter::Compiled = crate::scatter::Compiled {
             id: stringify!($id),
             model: &MODEL,
+            doc: <$Type<f32> as crate::params::Params<f32>>::DOC,
             specs: <$Type<f32> as crate::params::Params<f32>>::SPECS,
             scalar: methods!(f32, $Type, MODEL),
             eval_pdf,

@@ -14,6 +14,8 @@ pub trait Scatter: Sync + Send {
     fn id(&self) -> &'static str;
     /// Source, domain, claims.
     fn model(&self) -> &'static Model;
+    /// What it is, in Markdown with LaTeX between `$$`.
+    fn doc(&self) -> &'static str;
     /// The parameter table.
     fn specs(&self) -> &'static [ParamSpec];
     /// f(wi, wo) in 1/sr.
@@ -62,6 +64,7 @@ pub struct Methods<R> {
 pub struct Compiled {
     pub(crate) id: &'static str,
     pub(crate) model: &'static Model,
+    pub(crate) doc: &'static str,
     pub(crate) specs: &'static [ParamSpec],
     pub(crate) scalar: Methods<f32>,
     pub(crate) eval_pdf: fn(&[f32], Vec3<f32>, Vec3<f32>) -> (Color<f32>, f32),
@@ -77,6 +80,9 @@ impl Scatter for &'static Compiled {
     }
     fn model(&self) -> &'static Model {
         self.model
+    }
+    fn doc(&self) -> &'static str {
+        self.doc
     }
     fn specs(&self) -> &'static [ParamSpec] {
         self.specs

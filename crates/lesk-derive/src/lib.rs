@@ -24,11 +24,13 @@ fn expand(input: &DeriveInput) -> Result<Tokens> {
     };
     let params: Vec<Param> = fields.named.iter().map(Param::parse).collect::<Result<_>>()?;
     let name = &input.ident;
+    let doc = input.attrs.iter().filter_map(doc_line).collect::<Vec<_>>().join("\n");
     let specs = params.iter().map(Param::spec);
     let fields = params.iter().map(|p| &p.name);
     let loads = params.iter().map(Param::load);
     Ok(quote! {
         impl<R: ::lesk_math::Real> crate::params::Params<R> for #name<R> {
+            const DOC: &'static str = #doc;
             const SPECS: &'static [crate::params::ParamSpec] = &[#(#specs),*];
             #[inline(always)]
             fn gather(get: impl Fn(usize) -> R) -> Self {
