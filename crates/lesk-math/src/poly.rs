@@ -17,6 +17,10 @@
 //! | [`atan2`] | finite, radius above 2^-126 | 2.03 | 2.03 | 3 |
 //! | [`erf`] | all | 6.59 | 5.70 | 7 |
 //! | [`erf_inv`] | (-1, 1) | 3.41 | 3.87 | 4.5 |
+//! | [`pow`](Real::pow) | e = y log2 x in [-126, 126] | 1.2 + 2.2 \|e\| | the same | 1.2 + 3.6 \|e\| |
+//!
+//! `pow` is `exp2(y * log2(x))` and has no function here: the rounding of x alone costs |y| / 2 ulp, and |e| < 1.5 |y|
+//! for x in [0.37, 2.7].
 
 use crate::{Bits, Real};
 use core::f64::consts::{FRAC_1_PI, FRAC_PI_2, LOG2_E, PI, SQRT_2};
