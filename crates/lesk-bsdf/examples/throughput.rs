@@ -39,7 +39,7 @@ fn main() {
             for isa in Isa::ALL.into_iter().filter(|isa| isa.is_available()) {
                 let mut rows: Vec<Vec<f32>> = vec![vec![0.0; n]; 8];
                 let mut flat = vec![0.0; 3 * n];
-                let mut time = |f: &mut dyn FnMut(&mut [&mut [f32]], &mut [f32])| {
+                let mut time = |f: &mut dyn FnMut(&mut [&mut [f32]], &mut [f32]) -> usize| {
                     let repeat = (1 << 21) / n;
                     let mut slices: Vec<&mut [f32]> = rows.iter_mut().map(|r| r.as_mut_slice()).collect();
                     let mut seconds: Vec<f64> = (0..7)

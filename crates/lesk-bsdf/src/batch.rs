@@ -52,19 +52,47 @@ pub enum Out<'a, 'b> {
     Interleaved(&'a mut [f32]),
 }
 
-/// f(wi, wo) in 1/sr: one output per channel.
-pub fn eval(model: &dyn Scatter, isa: Isa, params: &[Column], wi: [Column; 3], wo: [Column; 3], n: usize, out: Out) {
-    run(model.kernels().for_isa(isa).eval, isa, CHANNELS, params, wi, wo, n, out);
+/// Directions whose squared length differs from 1 by more than this are counted, and give 0 only if they are not finite.
+pub const UNIT_TOLERANCE: f32 = 1e-4;
+
+/// f(wi, wo) in 1/sr: one output per channel. Returns how many directions were not of unit length.
+pub fn eval(
+    model: &dyn Scatter,
+    isa: Isa,
+    params: &[Column],
+    wi: [Column; 3],
+    wo: [Column; 3],
+    n: usize,
+    out: Out,
+) -> usize {
+    run(model.kernels().for_isa(isa).eval, isa, CHANNELS, true, params, wi, wo, n, out)
 }
 
-/// The density of drawing `wi` given `wo`, in 1/sr: one output.
-pub fn pdf(model: &dyn Scatter, isa: Isa, params: &[Column], wi: [Column; 3], wo: [Column; 3], n: usize, out: Out) {
-    run(model.kernels().for_isa(isa).pdf, isa, 1, params, wi, wo, n, out);
+/// The density of drawing `wi` given `wo`, in 1/sr: one output. Returns how many directions were not of unit length.
+pub fn pdf(
+    model: &dyn Scatter,
+    isa: Isa,
+    params: &[Column],
+    wi: [Column; 3],
+    wo: [Column; 3],
+    n: usize,
+    out: Out,
+) -> usize {
+    run(model.kernels().for_isa(isa).pdf, isa, 1, true, params, wi, wo, n, out)
 }
 
-/// Draws `wi` given `wo` and `u`: outputs wi.x, wi.y, wi.z, the weight's channels, pdf, delta.
-pub fn draw(model: &dyn Scatter, isa: Isa, params: &[Column], u: [Column; 3], wo: [Column; 3], n: usize, out: Out) {
-    run(model.kernels().for_isa(isa).draw, isa, DRAW_OUTPUTS, params, u, wo, n, out);
+/// Draws `wi` given `wo` and `u`: outputs wi.x, wi.y, wi.z, the weight's channels, pdf, delta. Returns how many `wo` were
+/// not of unit length.
+pub fn draw(
+    model: &dyn Scatter,
+    isa: Isa,
+    params: &[Column],
+    u: [Column; 3],
+    wo: [Column; 3],
+    n: usize,
+    out: Out,
+) -> usize {
+    run(model.kernels().for_isa(isa).draw, isa, DRAW_OUTPUTS, false, params, u, wo, n, out)
 }
 
 /// Scratch of one batch.
@@ -78,12 +106,13 @@ fn run(
     kernel: Kernel,
     isa: Isa,
     outputs: usize,
+    first_is_direction: bool,
     params: &[Column],
     first: [Column; 3],
     second: [Column; 3],
     n: usize,
     mut out: Out,
-) {
+) -> usize {
     let uniform = params.iter().all(|p| p.stride == 0);
     let varying = if uniform { 0 } else { params.len() };
     let mut scratch = Box::new(Scratch {
@@ -94,6 +123,7 @@ fn run(
     let Scratch { directions, params: param_rows, out: rows } = &mut *scratch;
     let columns = [first[0], first[1], first[2], second[0], second[1], second[2]];
     let copies = copy::Copies::for_isa(isa);
+    let mut odd = 0;
     for start in (0..n).step_by(BLOCK) {
         let len = BLOCK.min(n - start);
         let views = copy::gather(&copies, &columns, directions, start, len);
@@ -118,5 +148,10 @@ fn run(
         // SAFETY: `for_isa` checked that this processor has the instruction set
         unsafe { kernel(&block, rows) };
         copy::scatter(&copies, rows, &mut out, start, len);
+        odd += copies.count_odd(block.second, len);
+        if first_is_direction {
+            odd += copies.count_odd(block.first, len);
+        }
     }
+    odd
 }

@@ -111,7 +111,8 @@ fn vectors(v: &[f32], n: usize) -> [Column<'_>; 3] {
 
 /// Runs `eval`, `pdf` or `draw` over float32 arrays into `out` of shape (n, outputs).
 ///
-/// `first` is wi (eval, pdf) or u (draw), `second` is wo; inputs have 1 or n rows and are contiguous.
+/// `first` is wi (eval, pdf) or u (draw), `second` is wo; inputs have 1 or n rows and are contiguous. Returns how many
+/// directions were not of unit length.
 #[pyfunction]
 pub fn batch_f32(
     py: Python<'_>,
@@ -121,7 +122,7 @@ pub fn batch_f32(
     first: PyReadonlyArray2<'_, f32>,
     second: PyReadonlyArray2<'_, f32>,
     out: &Bound<'_, PyArray2<f32>>,
-) -> PyResult<()> {
+) -> PyResult<usize> {
     let model = find(id)?;
     let width = width_of(what)?;
     let mut target = out.readwrite();
@@ -140,9 +141,9 @@ pub fn batch_f32(
     }
     let isa = Isa::current();
     let what = what.to_owned();
-    py.detach(|| {
+    Ok(py.detach(|| {
         let grain = n.div_ceil(rayon::current_num_threads()).max(GRAIN);
-        target.par_chunks_mut(grain * width).enumerate().for_each(|(k, chunk)| {
+        target.par_chunks_mut(grain * width).enumerate().map(|(k, chunk)| {
             let rows = chunk.len() / width;
             let part = inputs.part(k * grain, rows);
             let columns: Vec<Column> = part
@@ -165,8 +166,7 @@ pub fn batch_f32(
                 Out::Interleaved(chunk),
             );
         });
-    });
-    Ok(())
+    }))
 }
 
 fn reference(model: &dyn Scatter) -> PyResult<&'static Methods<f64>> {

@@ -1,6 +1,6 @@
 //! Between the caller's arrays and the rows of a block.
 
-use super::{Column, Out};
+use super::{Column, Out, UNIT_TOLERANCE};
 use crate::kernels::{BLOCK, Row};
 use lesk_math::Isa;
 
@@ -8,6 +8,7 @@ use lesk_math::Isa;
 pub(super) struct Copies {
     split3: unsafe fn(&[f32], &mut [Row]),
     join3: unsafe fn(&[Row], &mut [f32]),
+    count_odd: unsafe fn([&[f32]; 3], usize) -> u32,
 }
 
 #[inline(always)]
@@ -28,6 +29,18 @@ fn join3(from: &[Row], to: &mut [f32]) {
     }
 }
 
+/// How many of `n` vectors are not of unit length; NaN counts.
+#[inline(always)]
+fn count_odd([x, y, z]: [&[f32]; 3], n: usize) -> u32 {
+    let (x, y, z) = (&x[..n], &y[..n], &z[..n]);
+    let mut count = 0;
+    for i in 0..n {
+        let l2 = x[i] * x[i] + y[i] * y[i] + z[i] * z[i];
+        count += u32::from(!((l2 - 1.0).abs() <= UNIT_TOLERANCE));
+    }
+    count
+}
+
 macro_rules! copies {
     ($($feature:literal)?) => {{
         $(#[target_feature(enable = $feature)])?
@@ -38,11 +51,20 @@ macro_rules! copies {
         unsafe fn join(from: &[Row], to: &mut [f32]) {
             join3(from, to)
         }
-        Copies { split3: split, join3: join }
+        $(#[target_feature(enable = $feature)])?
+        unsafe fn count(v: [&[f32]; 3], n: usize) -> u32 {
+            count_odd(v, n)
+        }
+        Copies { split3: split, join3: join, count_odd: count }
     }};
 }
 
 impl Copies {
+    pub(super) fn count_odd(&self, v: [&[f32]; 3], n: usize) -> usize {
+        // SAFETY: `for_isa` is called with an available instruction set only
+        unsafe { (self.count_odd)(v, n) as usize }
+    }
+
     pub(super) fn for_isa(isa: Isa) -> Copies {
         match isa {
             #[cfg(target_arch = "x86_64")]
