@@ -1,0 +1,72 @@
+"""The parts of the book's build that compute something."""
+
+import sys
+import xml.etree.ElementTree as ET
+from pathlib import Path
+
+import pytest
+
+sys.path.insert(0, str(Path(__file__).parents[1] / "_ext"))
+
+import model_pages
+import svg_math
+
+MODEL = {
+    "id": "phong",
+    "title": "Phong",
+    "year": 1975,
+    "paper": "phong1975",
+    "doc": "Shiny.\n\n$$ f = k_s $$",
+    "parameters": [
+        {
+            "name": "diffuse",
+            "doc": "Share of\nmatte light.",
+            "kind": "color",
+            "default": [0.5, 0.25, 1.0],
+            "range": [0.0, 1.0],
+            "unit": "",
+        }
+    ],
+    "claims": [
+        {"property": "isotropic", "when": None},
+        {"property": "passive", "when": "diffuse <= 1"},
+    ],
+    "counterexamples": [{"property": "reciprocal", "because": "divides by one cosine"}],
+}
+
+
+def test_a_page_names_the_paper_and_every_parameter():
+    page = model_pages.page(MODEL)
+    assert "{cite:t}`phong1975`" in page
+    assert "| `diffuse` | color | 1 | 0.5, 0.25, 1 | 0 to 1 | Share of matte light. |" in page
+
+
+def test_a_property_is_claimed_conditional_refuted_or_open():
+    holds = {name: text for name, text, _ in model_pages.claim_rows(MODEL)}
+    assert holds["isotropic"] == "always"
+    assert holds["passive"] == "where `diffuse <= 1`"
+    assert holds["reciprocal"] == "no: divides by one cosine"
+    assert holds["smooth"] == "not claimed"
+
+
+def test_a_page_that_did_not_change_is_not_written_again(tmp_path):
+    model_pages.write(tmp_path, [MODEL])
+    before = (tmp_path / "phong.md").stat().st_mtime_ns
+    (tmp_path / "gone.md").touch()
+    model_pages.write(tmp_path, [MODEL])
+    assert (tmp_path / "phong.md").stat().st_mtime_ns == before
+    assert sorted(p.name for p in tmp_path.iterdir()) == ["claims.txt", "index.md", "phong.md"]
+
+
+@pytest.mark.parametrize(
+    "latex", [r"\frac{D\,F\,G}{4\cos\theta_i}", r"\begin{aligned} a &= b \end{aligned}"]
+)
+def test_a_formula_is_one_svg_that_carries_its_source(latex):
+    svg = ET.fromstring(svg_math.draw(latex, display=True))
+    assert svg.tag.endswith("svg")
+    assert svg.get("aria-label") == latex
+
+
+def test_a_fraction_in_a_line_hangs_below_its_baseline():
+    style = ET.fromstring(svg_math.draw(r"\frac12", display=False)).get("style")
+    assert float(style.removeprefix("vertical-align: ").removesuffix("px")) < 0
