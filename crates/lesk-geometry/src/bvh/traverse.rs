@@ -1,0 +1,348 @@
+//! The walk through a tree, nearest box first.
+
+use super::simd::F4;
+use super::tree::{Child, MAX_DEPTH, Node, Tree};
+use super::triangle::{Shear, barycentric, intersect};
+use core::mem::MaybeUninit;
+
+/// Half a unit in the last place of 1.
+const ROUNDING: f32 = 5.960_464_5e-8;
+
+/// Seven children wait per level, eight at the last one.
+const STACK: usize = 7 * MAX_DEPTH + 8;
+
+/// The nearest hit so far. `source` and `id` order hits of equal distance, so that the result does not depend on the
+/// order of the walk.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Best {
+    pub t: f32,
+    pub source: u32,
+    pub id: u32,
+    pub uv: [f32; 2],
+}
+
+impl Best {
+    /// Nothing yet; hits at `t_max` itself do not count.
+    pub fn none(t_max: f32) -> Self {
+        Best { t: t_max, source: 0, id: 0, uv: [0.0; 2] }
+    }
+
+    /// Whether a hit comes before this one.
+    #[inline(always)]
+    pub fn is_beaten_by(&self, t: f32, source: u32, id: u32) -> bool {
+        t < self.t || (t == self.t && (source, id) < (self.source, self.id))
+    }
+}
+
+/// A ray in the space of a tree.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct LocalRay {
+    pub o: [f32; 3],
+    pub d: [f32; 3],
+    pub t_min: f32,
+}
+
+impl LocalRay {
+    /// Whether origin and direction are finite, the direction is not zero and its length leaves room for squares.
+    #[inline(always)]
+    pub fn is_usable(&self) -> bool {
+        let finite = |v: &[f32; 3]| v[0].abs() <= f32::MAX && v[1].abs() <= f32::MAX && v[2].abs() <= f32::MAX;
+        let longest = self.d[0].abs().max(self.d[1].abs()).max(self.d[2].abs());
+        finite(&self.o) && finite(&self.d) && longest > 1e-18
+    }
+}
+
+/// What the box test precomputes per ray: `t = bound * inverse + add`, with `add` moved outward by more than the
+/// rounding errors of this test and of the triangle test, so that no box is missed that holds a triangle reported as
+/// hit. That costs nothing per box (compare Ize, *Robust BVH Ray Traversal*, JCGT 2013, which scales every distance).
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Slabs {
+    inverse: [f32; 3],
+    near_add: [f32; 3],
+    far_add: [f32; 3],
+    near_row: [usize; 3],
+}
+
+impl Slabs {
+    #[inline(always)]
+    pub fn new(ray: &LocalRay, reach: f32) -> Self {
+        let longest = ray.d[0].abs().max(ray.d[1].abs()).max(ray.d[2].abs());
+        let far_away = ray.o[0].abs().max(ray.o[1].abs()).max(ray.o[2].abs());
+        // (b - o) / d errs by 4 roundings of |b| + |o|, the sheared corner of a triangle by 5: 16 cover their sum
+        let pad = 16.0 * ROUNDING * (reach + far_away);
+        let mut s = Slabs { inverse: [0.0; 3], near_add: [0.0; 3], far_add: [0.0; 3], near_row: [0; 3] };
+        for k in 0..3 {
+            // a component of 0 becomes one too small to matter, so that no product is 0 * infinity
+            let d = ray.d[k].abs().max(longest * 1e-18).copysign(ray.d[k]);
+            let inverse = 1.0 / d;
+            let add = -ray.o[k] * inverse;
+            s.inverse[k] = inverse;
+            s.near_add[k] = add - pad * inverse.abs();
+            s.far_add[k] = add + pad * inverse.abs();
+            s.near_row[k] = if d < 0.0 { k + 3 } else { k };
+        }
+        s
+    }
+}
+
+/// The test of a ray against eight boxes.
+pub(super) trait BoxTest {
+    /// Prepares for a ray.
+    fn new(slabs: &Slabs) -> Self;
+    /// Bit i: box i is met between `t_min` and `t_max`; and where each is entered.
+    fn boxes(&self, node: &Node, t_min: f32, t_max: f32) -> (u32, [f32; 8]);
+}
+
+/// Works everywhere.
+pub(super) struct Portable(Slabs);
+
+impl BoxTest for Portable {
+    #[inline(always)]
+    fn new(slabs: &Slabs) -> Self {
+        Portable(*slabs)
+    }
+
+    #[inline(always)]
+    fn boxes(&self, node: &Node, t_min: f32, t_max: f32) -> (u32, [f32; 8]) {
+        let s = &self.0;
+        let mut entry = [0.0; 8];
+        let mut mask = 0;
+        for half in 0..2 {
+            let (mut near, mut far) = (F4::splat(t_min), F4::splat(t_max));
+            for k in 0..3 {
+                let row = |r: usize| {
+                    let b = &node.bounds[r];
+                    F4::load(&[b[4 * half], b[4 * half + 1], b[4 * half + 2], b[4 * half + 3]])
+                };
+                let inverse = F4::splat(s.inverse[k]);
+                near = (row(s.near_row[k]) * inverse + F4::splat(s.near_add[k])).max(near);
+                far = (row((s.near_row[k] + 3) % 6) * inverse + F4::splat(s.far_add[k])).min(far);
+            }
+            mask |= near.le(far) << (4 * half);
+            entry[4 * half..4 * half + 4].copy_from_slice(&near.to_array());
+        }
+        (mask, entry)
+    }
+}
+
+/// AVX2 with FMA.
+#[cfg(target_arch = "x86_64")]
+pub(super) mod avx2 {
+    use super::{BoxTest, Node, Slabs};
+    use core::arch::x86_64::*;
+
+    /// Must only be made inside a function that enables AVX2 and FMA.
+    pub struct Wide {
+        inverse: [__m256; 3],
+        near_add: [__m256; 3],
+        far_add: [__m256; 3],
+        near_row: [usize; 3],
+        far_row: [usize; 3],
+    }
+
+    impl BoxTest for Wide {
+        #[inline(always)]
+        fn new(s: &Slabs) -> Self {
+            // SAFETY: the caller runs with AVX2 (see the type)
+            let splat = |v: [f32; 3]| unsafe { [_mm256_set1_ps(v[0]), _mm256_set1_ps(v[1]), _mm256_set1_ps(v[2])] };
+            Wide {
+                inverse: splat(s.inverse),
+                near_add: splat(s.near_add),
+                far_add: splat(s.far_add),
+                near_row: s.near_row,
+                far_row: s.near_row.map(|r| (r + 3) % 6),
+            }
+        }
+
+        #[inline(always)]
+        fn boxes(&self, node: &Node, t_min: f32, t_max: f32) -> (u32, [f32; 8]) {
+            let mut entry = [0.0f32; 8];
+            // SAFETY: rows are below 6 by construction, nodes are aligned to 64 bytes, and the caller runs with AVX2
+            let mask = unsafe {
+                let row = |r: usize| _mm256_load_ps(node.bounds.get_unchecked(r).as_ptr());
+                let near = |k: usize| _mm256_fmadd_ps(row(self.near_row[k]), self.inverse[k], self.near_add[k]);
+                let far = |k: usize| _mm256_fmadd_ps(row(self.far_row[k]), self.inverse[k], self.far_add[k]);
+                let enter =
+                    _mm256_max_ps(_mm256_max_ps(near(0), near(1)), _mm256_max_ps(near(2), _mm256_set1_ps(t_min)));
+                let leave = _mm256_min_ps(_mm256_min_ps(far(0), far(1)), _mm256_min_ps(far(2), _mm256_set1_ps(t_max)));
+                _mm256_storeu_ps(entry.as_mut_ptr(), enter);
+                _mm256_movemask_ps(_mm256_cmp_ps::<_CMP_LE_OQ>(enter, leave)) as u32
+            };
+            (mask, entry)
+        }
+    }
+}
+
+/// What is in a tree besides triangles.
+pub(super) trait Others {
+    /// Improves `best`; says whether it did.
+    fn visit(&self, index: u32, best: &mut Best) -> bool;
+}
+
+/// Nothing else.
+pub(super) struct NoOthers;
+
+impl Others for NoOthers {
+    #[inline(always)]
+    fn visit(&self, _: u32, _: &mut Best) -> bool {
+        false
+    }
+}
+
+/// Children still to visit, each as the bits of its entry distance above its number: distances are not negative, so
+/// that the larger word is the farther child.
+struct Stack {
+    words: [MaybeUninit<u64>; STACK],
+    len: usize,
+}
+
+impl Stack {
+    #[inline(always)]
+    fn new() -> Self {
+        Stack { words: [const { MaybeUninit::uninit() }; STACK], len: 0 }
+    }
+
+    #[inline(always)]
+    fn push(&mut self, word: u64) {
+        debug_assert!(self.len < STACK);
+        // SAFETY: at most 7 words wait per level and 8 at the last (`STACK`); the builder bounds the levels
+        unsafe { self.words.get_unchecked_mut(self.len).write(word) };
+        self.len += 1;
+    }
+
+    /// Puts a word into its place above `base`, nearest on top.
+    #[inline(always)]
+    fn insert(&mut self, base: usize, word: u64) {
+        let mut k = self.len;
+        self.push(word);
+        // SAFETY: words below `len` have been written
+        unsafe {
+            while k > base && self.words.get_unchecked(k - 1).assume_init() < word {
+                let moved = self.words.get_unchecked(k - 1).assume_init();
+                self.words.get_unchecked_mut(k).write(moved);
+                k -= 1;
+            }
+            self.words.get_unchecked_mut(k).write(word);
+        }
+    }
+
+    /// The next child that is entered before `limit`.
+    #[inline(always)]
+    fn pop(&mut self, limit: f32) -> Option<Child> {
+        while self.len > 0 {
+            self.len -= 1;
+            // SAFETY: words below the old `len` have been written
+            let word = unsafe { self.words.get_unchecked(self.len).assume_init() };
+            if f32::from_bits((word >> 32) as u32) <= limit {
+                return Some(Child(word as u32));
+            }
+        }
+        None
+    }
+}
+
+#[inline(always)]
+fn word(entry: f32, child: Child) -> u64 {
+    (entry.to_bits() as u64) << 32 | child.0 as u64
+}
+
+/// Finds the nearest hit, or with `ANY` some hit; says whether `best` was improved.
+#[inline(always)]
+pub(super) fn walk<B: BoxTest, O: Others, const ANY: bool>(
+    tree: &Tree,
+    ray: &LocalRay,
+    source: u32,
+    others: &O,
+    best: &mut Best,
+) -> bool {
+    if tree.nodes.is_empty() {
+        return false;
+    }
+    let boxes = B::new(&Slabs::new(ray, tree.reach));
+    let shear = Shear::new(ray.o, ray.d);
+    let mut stack = Stack::new();
+    let mut current = Child::node(0);
+    let mut found = None;
+    let mut improved = false;
+    loop {
+        if current.is_node() {
+            // SAFETY: the builder wrote only numbers of existing nodes and blocks
+            let node = unsafe { tree.nodes.get_unchecked(current.0 as usize) };
+            let (mask, entry) = boxes.boxes(node, ray.t_min, best.t);
+            if let Some(next) = choose::<ANY>(node, mask, &entry, &mut stack) {
+                current = next;
+                continue;
+            }
+        } else if current.is_other() {
+            if others.visit(current.other_index(), best) {
+                (improved, found) = (true, None);
+                if ANY {
+                    return true;
+                }
+            }
+        } else {
+            let (first, count) = current.block_range();
+            for index in first..first + count {
+                // SAFETY: as above
+                let block = unsafe { tree.blocks.get_unchecked(index) };
+                let lanes = intersect(block, &shear, ray.t_min, best.t);
+                let mut mask = lanes.mask;
+                while mask != 0 {
+                    let lane = (mask.trailing_zeros() & 3) as usize;
+                    mask &= mask - 1;
+                    if best.is_beaten_by(lanes.t[lane], source, block.id[lane]) {
+                        if ANY {
+                            return true;
+                        }
+                        best.t = lanes.t[lane];
+                        best.source = source;
+                        best.id = block.id[lane];
+                        found = Some((index, lane));
+                        improved = true;
+                    }
+                }
+            }
+        }
+        match stack.pop(best.t) {
+            Some(next) => current = next,
+            None => break,
+        }
+    }
+    if let Some((index, lane)) = found {
+        best.uv = barycentric(&tree.blocks[index], &shear, lane);
+    }
+    improved
+}
+
+/// The child to go on with; the others are pushed, farthest first.
+#[inline(always)]
+fn choose<const ANY: bool>(node: &Node, mut mask: u32, entry: &[f32; 8], stack: &mut Stack) -> Option<Child> {
+    let take = |mask: &mut u32| {
+        let slot = (mask.trailing_zeros() & 7) as usize;
+        *mask &= *mask - 1;
+        word(entry[slot], node.child[slot])
+    };
+    if mask == 0 {
+        return None;
+    }
+    let first = take(&mut mask);
+    if mask == 0 {
+        return Some(Child(first as u32));
+    }
+    let second = take(&mut mask);
+    let (near, far) = if first < second { (first, second) } else { (second, first) };
+    if mask == 0 {
+        stack.push(far);
+        return Some(Child(near as u32));
+    }
+    let base = stack.len;
+    stack.push(far);
+    stack.push(near);
+    while mask != 0 {
+        let next = take(&mut mask);
+        if ANY { stack.push(next) } else { stack.insert(base, next) }
+    }
+    stack.len -= 1;
+    // SAFETY: just written
+    Some(Child(unsafe { stack.words.get_unchecked(stack.len).assume_init() } as u32))
+}

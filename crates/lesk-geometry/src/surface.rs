@@ -1,0 +1,131 @@
+//! The surface at a hit.
+
+use crate::mesh::Mesh;
+use crate::ray::{Hit, Ray};
+use crate::robust::{abs, lift};
+use crate::shapes::{Geometry, shape_surface};
+use crate::transform::{Transform, narrow, widen};
+use lesk_math::{Frame, Vec3, vec3};
+
+/// A point of a surface in the world, with what shading needs to know.
+#[derive(Clone, Copy, Debug)]
+pub struct Surface {
+    /// Position, metres: on the surface up to rounding, not computed from the ray.
+    pub p: Vec3<f32>,
+    /// Unit geometric normal, to the outside: the side from which a triangle winds counter-clockwise.
+    pub ng: Vec3<f32>,
+    /// Unit shading normal, on the same side as `ng`.
+    pub ns: Vec3<f32>,
+    /// Texture coordinates; barycentric coordinates where the mesh has none.
+    pub uv: [f32; 2],
+    /// Derivative of the position by u, metres; some tangent where the texture coordinates give none.
+    pub dpdu: Vec3<f32>,
+    /// How far along `ng` a new ray must start, metres.
+    pub lift: f32,
+    /// Instance, as numbered by the builder.
+    pub instance: u32,
+    /// Triangle of the mesh or part of the shape.
+    pub prim: u32,
+}
+
+impl Surface {
+    /// The shading frame: normal `ns`, tangent along `dpdu`.
+    #[inline]
+    pub fn frame(&self) -> Frame<f32> {
+        Frame::from_normal_tangent(self.ns, self.dpdu)
+    }
+
+    /// The position moved off the surface to the side that `d` points to.
+    #[inline]
+    pub fn lifted(&self, d: Vec3<f32>) -> Vec3<f32> {
+        self.p + self.ng * self.lift.copysign(self.ng.dot(d))
+    }
+}
+
+/// The surface where `hit` found it.
+pub(crate) fn surface_at(geometry: &Geometry, place: &Transform, ray: &Ray, hit: &Hit) -> Surface {
+    match geometry.mesh() {
+        Some(mesh) => triangle_surface(mesh, place, hit),
+        None => curved_surface(geometry, place, ray, hit),
+    }
+}
+
+fn curved_surface(geometry: &Geometry, place: &Transform, ray: &Ray, hit: &Hit) -> Surface {
+    let p_ray = widen(ray.o) + widen(ray.d) * hit.t as f64;
+    let local = shape_surface(geometry, hit.prim, place.inverse().point_f64(p_ray));
+    let p = narrow(place.point_f64(local.p));
+    let ng = narrow(place.normal_f64(local.n).normalize());
+    let dpdu = narrow(place.vector_f64(local.dpdu));
+    Surface {
+        p,
+        ng,
+        ns: ng,
+        uv: local.uv.map(|x| x as f32),
+        dpdu: if dpdu == Vec3::ZERO { Frame::from_normal(ng).t } else { dpdu },
+        lift: lift(ng, abs(p)),
+        instance: hit.instance,
+        prim: hit.prim,
+    }
+}
+
+fn triangle_surface(mesh: &Mesh, place: &Transform, hit: &Hit) -> Surface {
+    let index = hit.prim as usize;
+    let local = mesh.corners(index);
+    let [a, b, c] = local.map(|v| widen(place.point(v)));
+    let weights = [1.0 - hit.u - hit.v, hit.u, hit.v].map(f64::from);
+    let p = narrow(a * weights[0] + b * weights[1] + c * weights[2]);
+    let ng = narrow((b - a).cross(c - a).normalize() * place.determinant().signum());
+    let ns = shading_normal(mesh, place, index, weights, ng);
+    Surface {
+        p,
+        ng,
+        ns,
+        uv: triangle_uv(mesh, index, [hit.u, hit.v]),
+        dpdu: tangent(mesh, index, [b - a, c - a]).unwrap_or_else(|| Frame::from_normal(ns).t),
+        lift: lift(ng, magnitude(place, &local, p)),
+        instance: hit.instance,
+        prim: hit.prim,
+    }
+}
+
+/// Bounds the coordinates that take part in finding a point of the triangle, in the world and in its local space.
+fn magnitude(place: &Transform, local: &[Vec3<f32>; 3], p: Vec3<f32>) -> Vec3<f32> {
+    let largest = |f: fn(&Vec3<f32>) -> f32| local.iter().map(f).fold(0.0f32, |m, x| m.max(x.abs()));
+    let size = [largest(|v| v.x), largest(|v| v.y), largest(|v| v.z)];
+    let row = |r: &[f64; 4]| (0..3).map(|k| r[k].abs() as f32 * size[k]).sum::<f32>() + r[3].abs() as f32;
+    let m = place.rows();
+    vec3(row(&m[0]), row(&m[1]), row(&m[2])) + abs(p)
+}
+
+fn shading_normal(mesh: &Mesh, place: &Transform, index: usize, weights: [f64; 3], ng: Vec3<f32>) -> Vec3<f32> {
+    if mesh.normals().is_empty() {
+        return ng;
+    }
+    let n = mesh.triangles()[index].map(|i| widen(mesh.normals()[i as usize]));
+    let sum = n[0] * weights[0] + n[1] * weights[1] + n[2] * weights[2];
+    let ns = narrow(place.normal_f64(sum).normalize());
+    // normals that cancel, or that a coarse mesh bends beyond the horizon, are no use for shading
+    if ns.dot(ng) > 1e-4 { ns } else { ng }
+}
+
+/// Texture coordinates at the barycentric weights of the second and third corner.
+pub(crate) fn triangle_uv(mesh: &Mesh, index: usize, [u, v]: [f32; 2]) -> [f32; 2] {
+    if mesh.uvs().is_empty() {
+        return [u, v];
+    }
+    let [a, b, c] = mesh.triangles()[index].map(|i| mesh.uvs()[i as usize]);
+    std::array::from_fn(|k| a[k] * (1.0 - u - v) + b[k] * u + c[k] * v)
+}
+
+/// dp/du of a triangle with the given edges; `None` where the texture coordinates do not span the plane.
+fn tangent(mesh: &Mesh, index: usize, edges: [Vec3<f64>; 2]) -> Option<Vec3<f32>> {
+    if mesh.uvs().is_empty() {
+        return None;
+    }
+    let [a, b, c] = mesh.triangles()[index].map(|i| mesh.uvs()[i as usize].map(f64::from));
+    let (du1, dv1, du2, dv2) = (b[0] - a[0], b[1] - a[1], c[0] - a[0], c[1] - a[1]);
+    let det = du1 * dv2 - dv1 * du2;
+    let t = narrow((edges[0] * dv2 - edges[1] * dv1) / det);
+    let length = t.length();
+    (length.is_finite() && length > 0.0).then_some(t)
+}
