@@ -1,0 +1,107 @@
+//! One light of any kind.
+
+use crate::bounds::LightBounds;
+use crate::sample::{LightSample, Receiver};
+use crate::{Area, Directional, Environment, Point, Sky, Spot};
+use lesk_geometry::Surface;
+use lesk_math::{Color, Vec3};
+
+/// A light. All values are photometric: linear Rec.709 RGB whose luminance Y is cd, lx or cd/m².
+#[derive(Clone, Debug)]
+pub enum Light {
+    /// A point.
+    Point(Point),
+    /// A point that shines into a cone.
+    Spot(Spot),
+    /// Parallel light.
+    Directional(Directional),
+    /// A surface.
+    Area(Area),
+    /// A picture of all directions.
+    Environment(Environment),
+    /// The same luminance from all directions.
+    Sky(Sky),
+}
+
+impl Light {
+    /// Whether it shines from infinitely far away.
+    pub fn is_infinite(&self) -> bool {
+        matches!(self, Light::Directional(_) | Light::Environment(_) | Light::Sky(_))
+    }
+
+    /// Whether it comes from one direction only, at any receiver.
+    pub fn is_delta(&self) -> bool {
+        matches!(self, Light::Point(_) | Light::Spot(_) | Light::Directional(_))
+    }
+
+    /// Luminous flux in lm; of distant light, what enters a sphere of the given radius in metres.
+    pub fn flux(&self, scene_radius: f32) -> f32 {
+        match self {
+            Light::Point(light) => light.flux(),
+            Light::Spot(light) => light.flux(),
+            Light::Area(light) => light.flux(),
+            Light::Directional(light) => light.flux(scene_radius),
+            Light::Environment(light) => light.flux(scene_radius),
+            Light::Sky(light) => light.flux(scene_radius),
+        }
+    }
+
+    /// Chooses a direction from which the light arrives; the probability of the light itself is not in `pdf`.
+    /// `part` is the triangle of a mesh, else 0. `None` where nothing arrives for this `u`.
+    pub fn sample(&self, part: u32, at: &Receiver, u: [f32; 2]) -> Option<LightSample> {
+        match self {
+            Light::Point(light) => light.sample(at),
+            Light::Spot(light) => light.sample(at),
+            Light::Directional(light) => light.sample(at),
+            Light::Area(light) => light.sample(part, at, u),
+            Light::Environment(light) => light.sample(u),
+            Light::Sky(light) => light.sample(at, u),
+        }
+    }
+
+    /// Density in 1/sr with which [`sample`](Self::sample) finds the surface that a ray from the receiver hit; 0 for
+    /// all but area lights.
+    pub fn pdf_surface(&self, at: &Receiver, hit: &Surface) -> f32 {
+        match self {
+            Light::Area(light) => light.pdf(at, hit),
+            _ => 0.0,
+        }
+    }
+
+    /// Density in 1/sr with which [`sample`](Self::sample) draws `wi` for a distant light; 0 for all others and for
+    /// parallel light.
+    pub fn pdf_direction(&self, at: &Receiver, wi: Vec3<f32>) -> f32 {
+        match self {
+            Light::Environment(light) => light.pdf(wi),
+            Light::Sky(light) => light.pdf(at, wi),
+            _ => 0.0,
+        }
+    }
+
+    /// Luminance in cd/m² that leaves the surface in direction `w`; black for all but area lights.
+    pub fn emitted(&self, surface: &Surface, w: Vec3<f32>) -> Color<f32> {
+        match self {
+            Light::Area(light) => light.radiance(surface.ng, w),
+            _ => Color::BLACK,
+        }
+    }
+
+    /// Luminance in cd/m² that a ray in direction `wi` meets at infinity; black for lights that are not there.
+    pub fn background(&self, wi: Vec3<f32>) -> Color<f32> {
+        match self {
+            Light::Environment(light) => light.radiance(wi),
+            Light::Sky(light) => light.radiance(wi),
+            _ => Color::BLACK,
+        }
+    }
+
+    /// Bounds of every part that can be chosen; none for distant light.
+    pub(crate) fn bounds(&self) -> Vec<LightBounds> {
+        match self {
+            Light::Point(light) => vec![light.bounds()],
+            Light::Spot(light) => vec![light.bounds()],
+            Light::Area(light) => light.bounds(),
+            Light::Directional(_) | Light::Environment(_) | Light::Sky(_) => vec![],
+        }
+    }
+}

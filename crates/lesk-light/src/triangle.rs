@@ -1,0 +1,167 @@
+//! One triangle of an emissive mesh, sampled by solid angle where it is seen large and by area where it is seen small.
+
+use lesk_geometry::{Mesh, SurfaceSample, Transform};
+use lesk_math::Vec3;
+
+/// Solid angles between which a triangle is sampled by solid angle, sr. Below, the area density is as good and keeps
+/// more digits; above, the triangle nearly holds a hemisphere and the angles of its corners lose digits.
+const SEEN_LARGE: std::ops::Range<f64> = 1e-3..6.2;
+
+/// A triangle in the world.
+#[derive(Clone, Debug)]
+pub(crate) struct Triangle {
+    corners: [Vec3<f32>; 3],
+    /// Unit, to the outside.
+    n: Vec3<f32>,
+    area: f32,
+    lift: f32,
+}
+
+impl Triangle {
+    /// Triangle `prim` of a placed mesh; `None` where its area vanishes in f32.
+    pub fn new(mesh: &Mesh, prim: usize, place: &Transform) -> Option<Self> {
+        let local = mesh.corners(prim);
+        let corners = local.map(|c| place.point(c));
+        let [a, b, c] = corners.map(widen);
+        let double = (b - a).cross(c - a);
+        let length = double.length();
+        let n = narrow(double * (place.determinant().signum() / length));
+        let area = (0.5 * length) as f32;
+        (area > 0.0 && area.is_finite() && n.to_array().iter().all(|x| x.is_finite())).then(|| Triangle {
+            corners,
+            n,
+            area,
+            lift: lift(place, &local, &corners),
+        })
+    }
+
+    pub fn corners(&self) -> [Vec3<f32>; 3] {
+        self.corners
+    }
+
+    pub fn normal(&self) -> Vec3<f32> {
+        self.n
+    }
+
+    /// Square metres.
+    pub fn area(&self) -> f32 {
+        self.area
+    }
+
+    /// A point for the receiver at `x`; its `pdf` is per steradian. `uv` holds the weights of the second and third corner.
+    pub fn sample_from(&self, x: Vec3<f32>, prim: u32, u: [f32; 2]) -> Option<SurfaceSample> {
+        let u = u.map(f64::from);
+        let seen = self.seen(x);
+        let weights = match &seen {
+            Some(seen) => self.weights_toward(widen(x), seen.sample(u)?),
+            None => by_area(u),
+        };
+        let [a, b, c] = self.corners.map(widen);
+        let p = narrow(a * weights[0] + b * weights[1] + c * weights[2]);
+        let pdf = match seen {
+            Some(seen) => (1.0 / seen.solid_angle) as f32,
+            None => self.area_pdf(x, p),
+        };
+        let uv = [weights[1] as f32, weights[2] as f32];
+        (pdf > 0.0 && pdf.is_finite()).then_some(SurfaceSample { p, n: self.n, uv, prim, pdf, lift: self.lift })
+    }
+
+    /// The density of [`sample_from`](Self::sample_from) at the point `p` of the triangle, 1/sr.
+    pub fn pdf_from(&self, x: Vec3<f32>, p: Vec3<f32>) -> f32 {
+        match self.seen(x) {
+            Some(seen) => (1.0 / seen.solid_angle) as f32,
+            None => self.area_pdf(x, p),
+        }
+    }
+
+    /// 1/area as a density over solid angle; 0 edge-on.
+    fn area_pdf(&self, x: Vec3<f32>, p: Vec3<f32>) -> f32 {
+        let to = widen(p) - widen(x);
+        let square = to.length_squared();
+        let cosine = to.dot(widen(self.n)).abs() / square.sqrt();
+        let pdf = (square / (cosine * f64::from(self.area))) as f32;
+        if cosine > 1e-9 && pdf.is_finite() { pdf } else { 0.0 }
+    }
+
+    fn seen(&self, x: Vec3<f32>) -> Option<SphericalTriangle> {
+        let x = widen(x);
+        let [a, b, c] = self.corners.map(|v| (widen(v) - x).normalize());
+        // Van Oosterom & Strackee, IEEE Trans. Biomed. Eng. 30, 1983
+        let solid_angle = 2.0 * a.dot(b.cross(c)).abs().atan2(1.0 + a.dot(b) + b.dot(c) + c.dot(a));
+        SEEN_LARGE.contains(&solid_angle).then_some(SphericalTriangle { a, b, c, solid_angle })
+    }
+
+    /// Barycentric weights of the point of the plane that lies in the direction `w` from `x`.
+    fn weights_toward(&self, x: Vec3<f64>, w: Vec3<f64>) -> [f64; 3] {
+        let [a, b, c] = self.corners.map(|v| widen(v) - x);
+        // volumes with the ray: the weight of a corner is the volume opposite to it
+        let volumes = [w.dot(b.cross(c)), w.dot(c.cross(a)), w.dot(a.cross(b))];
+        let sum: f64 = volumes.iter().sum();
+        let v = volumes.map(|v| (v / sum).clamp(0.0, 1.0));
+        let total: f64 = v.iter().sum();
+        v.map(|v| v / total)
+    }
+}
+
+/// A triangle on the unit sphere.
+struct SphericalTriangle {
+    a: Vec3<f64>,
+    b: Vec3<f64>,
+    c: Vec3<f64>,
+    solid_angle: f64,
+}
+
+impl SphericalTriangle {
+    /// A direction distributed uniformly (Arvo, *Stratified Sampling of Spherical Triangles*, SIGGRAPH 1995).
+    /// `None` where two corners coincide.
+    fn sample(&self, u: [f64; 2]) -> Option<Vec3<f64>> {
+        let (a, b, c) = (self.a, self.b, self.c);
+        let (ab, ca) = (a.cross(b), c.cross(a));
+        let alpha = ab.cross(ca).length().atan2(-ab.dot(ca));
+        let (sin_alpha, cos_alpha) = alpha.sin_cos();
+        if sin_alpha <= 0.0 {
+            return None;
+        }
+        // the cut-off triangle with the area u0 ends at the corner d on the edge from a to c
+        let (sin_phi, cos_phi) = (u[0] * self.solid_angle - alpha).sin_cos();
+        let cos_ab = a.dot(b);
+        let (k1, k2) = (cos_phi - cos_alpha, sin_phi + sin_alpha * cos_ab);
+        let below = (k2 * sin_phi + k1 * cos_phi) * sin_alpha;
+        let cos_d = (((k2 * cos_phi - k1 * sin_phi) * cos_alpha - k2) / below).clamp(-1.0, 1.0);
+        let cos_d = if cos_d.is_finite() { cos_d } else { 1.0 };
+        let d = a * cos_d + across(c, a) * (1.0 - cos_d * cos_d).max(0.0).sqrt();
+        let cos_theta = 1.0 - u[1] * (1.0 - d.dot(b));
+        let w = b * cos_theta + across(d, b) * (1.0 - cos_theta * cos_theta).max(0.0).sqrt();
+        (w.length_squared() > 0.5).then_some(w)
+    }
+}
+
+/// The unit vector along the part of `v` perpendicular to the unit vector `axis`.
+fn across(v: Vec3<f64>, axis: Vec3<f64>) -> Vec3<f64> {
+    (v - axis * v.dot(axis)).normalize()
+}
+
+/// Heitz, *A Low-Distortion Map Between Triangle and Square*, 2019: barycentric weights.
+fn by_area(u: [f64; 2]) -> [f64; 3] {
+    let (b, c) = if u[1] > u[0] { (0.5 * u[0], u[1] - 0.5 * u[0]) } else { (u[0] - 0.5 * u[1], 0.5 * u[1]) };
+    [1.0 - b - c, b, c]
+}
+
+/// How far a ray must keep from the triangle: 32 roundings of the coordinates that its points are computed from, the
+/// bound that `lesk-geometry` states for hits.
+fn lift(place: &Transform, local: &[Vec3<f32>; 3], corners: &[Vec3<f32>; 3]) -> f32 {
+    let sum = |v: &Vec3<f32>| v.x.abs() + v.y.abs() + v.z.abs();
+    let world = corners.iter().map(sum).fold(0.0, f32::max);
+    let size = local.iter().map(sum).fold(0.0, f32::max);
+    let linear: f64 = place.rows().iter().map(|r| r[..3].iter().fold(0.0, |m: f64, x| m.max(x.abs()))).sum();
+    let moved: f64 = place.rows().iter().map(|r| r[3].abs()).sum();
+    16.0 * f32::EPSILON * (world + size * linear as f32 + moved as f32)
+}
+
+fn widen(v: Vec3<f32>) -> Vec3<f64> {
+    v.map(f64::from)
+}
+
+fn narrow(v: Vec3<f64>) -> Vec3<f32> {
+    v.map(|x| x as f32)
+}
