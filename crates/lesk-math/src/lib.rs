@@ -12,6 +12,8 @@ pub mod expr;
 mod frame;
 pub mod poly;
 mod real;
+pub mod rng;
+pub mod sobol;
 mod vec3;
 
 pub use batch::{Isa, Lane};

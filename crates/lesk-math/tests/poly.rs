@@ -76,7 +76,7 @@ fn absolute(_: f64) -> f64 {
     1.0
 }
 
-// the bounds are the largest errors measured at stride 1, rounded up; see the table in the module documentation
+// the bounds are the largest errors over every 17th number, with 5 to 15 % on top for those between; see the module documentation
 error_bound!(exp2_is_within_1_2_ulp, exp2, libm::exp2, -126.0, 127.5, 601, [0.0, 0.5, -0.5, 1.0], ulp, 1.2);
 error_bound!(exp2_is_within_101_ulp_up_to_overflow, exp2, libm::exp2, 127.5, 127.999, 1, [], ulp, 101.0);
 error_bound!(exp_is_within_1_2_ulp, exp, libm::exp, -87.336, 88.37, 601, [0.0, 0.3466, -0.3466], ulp, 1.2);
@@ -113,12 +113,12 @@ error_bound!(
     ulp,
     2.2
 );
-error_bound!(sin_is_within_1_5e_7_up_to_1e5, sin, libm::sin, -1e5, 1e5, 601, [1e5], absolute, 1.5e-7);
-error_bound!(cos_is_within_1_5e_7_up_to_1e5, cos, libm::cos, -1e5, 1e5, 601, [1e5], absolute, 1.5e-7);
-error_bound!(acos_is_within_2_6_ulp, acos, libm::acos, -1.0, 1.0, 601, [-1.0, 0.0, 0.5, 1.0], ulp, 2.6);
-error_bound!(erf_is_within_7_ulp, erf, libm::erf, -5.0, 5.0, 601, [0.0, 0.5, 1.0, 3.92], ulp, 7.0);
+error_bound!(sin_is_within_1_4e_7_up_to_1e5, sin, libm::sin, -1e5, 1e5, 601, [1e5], absolute, 1.4e-7);
+error_bound!(cos_is_within_1_4e_7_up_to_1e5, cos, libm::cos, -1e5, 1e5, 601, [1e5], absolute, 1.4e-7);
+error_bound!(acos_is_within_2_8_ulp, acos, libm::acos, -1.0, 1.0, 601, [-1.0, 0.0, 0.5, 1.0], ulp, 2.8);
+error_bound!(erf_is_within_9_ulp, erf, libm::erf, -5.0, 5.0, 601, [0.0, 0.5, 1.0, 3.92], ulp, 9.0);
 error_bound!(
-    erf_inv_is_within_4_5_ulp,
+    erf_inv_is_within_5_ulp,
     erf_inv,
     poly::erf_inv_f64,
     -LAST_BELOW_1,
@@ -126,7 +126,7 @@ error_bound!(
     6001,
     [0.0, 0.5, 1.0],
     ulp,
-    4.5
+    5.0
 );
 
 /// Points on all rays of slope 2^-30 to 2^30 at radii 2^-100 to 2^100, and on the axes.
