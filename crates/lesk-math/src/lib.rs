@@ -15,6 +15,7 @@ mod real;
 pub mod rng;
 pub mod sobol;
 mod vec3;
+pub mod warp;
 
 pub use batch::{Isa, Lane};
 pub use color::{CHANNELS, Channels, Color};
