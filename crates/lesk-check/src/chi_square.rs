@@ -1,0 +1,201 @@
+//! `SamplesItself`: `pdf` is the density of `draw`, delta lobes are drawn as often as they say, rejected draws as
+//! often as `pdf` leaves over, and the weight of a draw is f |cos wi| / pdf.
+//!
+//! The design is Mitsuba's (a histogram over theta and phi, the density integrated over each cell, cells pooled to at
+//! least 5 expected draws, Šidák's correction over the configurations), with cells that are small where a first set
+//! of draws lies, so that a lobe of any width is resolved.
+
+use crate::cubature::{Integral, integrate};
+use crate::directions;
+use crate::effort::Budget;
+use crate::finding::{Finding, worst as worst_of};
+use crate::partition::Partition;
+use crate::random::Random;
+use crate::region::Region;
+use crate::statistics::{chi_square_survival, sidak};
+use crate::subject::{Case, Subject, largest};
+use lesk_bsdf::bsdf::{Delta, Sample};
+use lesk_math::{CHANNELS, Vec3, vec3};
+
+/// What the value means.
+pub const MEASURE: &str = "-log10 of the smallest p-value";
+
+/// The probability of a false alarm over all configurations of one claim.
+pub const SIGNIFICANCE: f64 = 0.01;
+
+/// Draws that shape the cells, and draws per cell among them.
+const PILOT: usize = 4096;
+const PER_CELL: usize = 16;
+
+/// Draws whose weight and density are compared with the functions.
+const WEIGHED: usize = 512;
+
+/// The outcome of one histogram.
+#[derive(Clone, Debug)]
+pub struct Outcome {
+    /// The probability of a chi-square at least as large, if the density is that of the draws.
+    pub p: f64,
+    /// Chi-square and its degrees of freedom.
+    pub chi_square: [f64; 2],
+    /// The integral of the density and its error.
+    pub integral: [f64; 2],
+    /// A fault that needs no statistics.
+    pub fault: Option<String>,
+}
+
+/// One bin: expected and observed counts, and the error of the former.
+#[derive(Clone, Copy, Default)]
+struct Bin {
+    expected: f64,
+    observed: f64,
+    error: f64,
+}
+
+/// Draws `count` directions for `wo` and compares.
+pub fn histogram(case: &Case, wo: Vec3<f64>, count: usize, rng: &mut Random) -> Outcome {
+    let lobes = case.delta(wo);
+    let mut outcome = Outcome { p: 1.0, chi_square: [0.0, 0.0], integral: [0.0, 0.0], fault: None };
+    outcome.fault = lobes.iter().find_map(|lobe| misdirected(case, wo, lobe));
+    let pilot = (0..PILOT).map(|_| case.draw(wo, rng.unit3())).filter(|s| s.pdf > 0.0 && s.delta == 0.0);
+    let mut hints: Vec<Vec3<f64>> = pilot.map(|s| s.wi).collect();
+    hints.extend([vec3(-wo.x, -wo.y, wo.z); 1]);
+    let partition = Partition::new(case.domain(), &hints, PER_CELL);
+    // an error of 1e-3 in all cells together stays below the noise of 1e5 draws
+    let integrals = integrate(&partition.cells, |wi| [case.pdf(wi, wo); CHANNELS], 1e-3, 300_000);
+    let n = count as f64;
+    let bin = |i: &Integral| Bin { expected: n * i.value[0], observed: 0.0, error: n * i.error };
+    let mut bins: Vec<Bin> = integrals.iter().map(bin).collect();
+    let cells = bins.len();
+    bins.extend(lobes.iter().map(|lobe| Bin { expected: n * lobe.probability, ..Bin::default() }));
+    let expected: f64 = bins.iter().map(|b| b.expected).sum();
+    let error: f64 = bins.iter().map(|b| b.error).sum();
+    bins.push(Bin { expected: (n - expected).max(0.0), observed: 0.0, error });
+    outcome.integral = [expected / n, error / n];
+    if !(expected <= n * 1.0001 + error) {
+        outcome.fault.get_or_insert(format!("the density integrates to {:.5}, more than 1", expected / n));
+    }
+    for i in 0..count {
+        let s = case.draw(wo, rng.unit3());
+        if i < WEIGHED || s.delta != 0.0 && outcome.fault.is_none() {
+            let fault = misweighed(case, wo, &s, &lobes);
+            outcome.fault = outcome.fault.or(fault);
+        }
+        let at = if s.delta != 0.0 {
+            cells + nearest(&lobes, s.wi).unwrap_or(lobes.len())
+        } else if s.pdf > 0.0 {
+            partition.find(s.wi).unwrap_or(cells + lobes.len())
+        } else {
+            cells + lobes.len()
+        };
+        bins[at].observed += 1.0;
+    }
+    let empty = |b: &&Bin| b.observed > 2.0 && b.expected + b.error < 1e-6;
+    if let Some(bin) = bins[..cells].iter().find(empty) {
+        let text = format!("{} draws where the density is zero", bin.observed);
+        outcome.fault.get_or_insert(text);
+    }
+    outcome.chi_square = chi_square(bins);
+    outcome.p = if outcome.chi_square[1] > 0.0 {
+        chi_square_survival(outcome.chi_square[0], outcome.chi_square[1])
+    } else {
+        1.0
+    };
+    outcome
+}
+
+/// Chi-square and degrees of freedom of bins pooled to at least 5 expected. Deviations count beyond the error of the
+/// expected count only.
+fn chi_square(mut bins: Vec<Bin>) -> [f64; 2] {
+    bins.sort_by(|a, b| a.expected.total_cmp(&b.expected));
+    let mut pooled: Vec<Bin> = Vec::new();
+    let mut open = Bin::default();
+    for bin in bins {
+        open.expected += bin.expected;
+        open.observed += bin.observed;
+        open.error += bin.error;
+        if open.expected >= 5.0 {
+            pooled.push(std::mem::take(&mut open));
+        }
+    }
+    match pooled.last_mut() {
+        Some(last) => {
+            last.expected += open.expected;
+            last.observed += open.observed;
+            last.error += open.error;
+        }
+        None => pooled.push(open),
+    }
+    let term = |b: &Bin| ((b.observed - b.expected).abs() - b.error).max(0.0).powi(2) / b.expected.max(1e-9);
+    [pooled.iter().map(term).sum(), (pooled.len() - 1) as f64]
+}
+
+fn nearest(lobes: &[Delta<f64>], wi: Vec3<f64>) -> Option<usize> {
+    let distance = |lobe: &Delta<f64>| (lobe.wi - wi).length();
+    (0..lobes.len()).min_by(|&a, &b| distance(&lobes[a]).total_cmp(&distance(&lobes[b])))
+}
+
+/// The tolerance of comparisons that should be exact: 1e-6 as the contract states, or the number type's.
+fn close(case: &Case) -> f64 {
+    (64.0 * case.subject.epsilon()).max(1e-6)
+}
+
+/// What is wrong with one draw: its density or weight differs from the functions', or its lobe from the list.
+fn misweighed(case: &Case, wo: Vec3<f64>, s: &Sample<f64>, lobes: &[Delta<f64>]) -> Option<String> {
+    let close = close(case);
+    if s.delta != 0.0 {
+        let Some(lobe) = nearest(lobes, s.wi).map(|at| &lobes[at]) else {
+            return Some("a delta lobe is drawn that `delta` does not list".to_owned());
+        };
+        let weight = lobe.weight * (1.0 / lobe.probability);
+        let wrong = largest(s.weight - weight) / largest(weight).max(1e-30);
+        let off = (lobe.wi - s.wi).length().max((s.pdf - lobe.probability).abs());
+        return (!(wrong <= close && off <= close)).then(|| "a delta draw differs from its lobe".to_owned());
+    }
+    if s.pdf == 0.0 {
+        let black = largest(s.weight) == 0.0;
+        return (!black).then(|| "a rejected draw has a weight".to_owned());
+    }
+    let pdf = case.pdf(s.wi, wo);
+    let f = case.eval(s.wi, wo);
+    let weight = f * (s.wi.z.abs() / s.pdf);
+    let wrong = largest(s.weight - weight) / largest(weight).max(1e-30);
+    if !((s.pdf - pdf).abs() <= close * pdf) {
+        return Some(format!("a draw states density {}, `pdf` says {pdf}", s.pdf));
+    }
+    (!(wrong <= close)).then(|| format!("the weight of a draw is off by {wrong:.2e} from f cos / pdf"))
+}
+
+/// The direction of a delta lobe against the law of reflection or of refraction.
+fn misdirected(case: &Case, wo: Vec3<f64>, lobe: &Delta<f64>) -> Option<String> {
+    let across = lobe.wi.z * wo.z < 0.0;
+    let ratio = if across { case.index(wo) / case.index(lobe.wi) } else { 1.0 };
+    let (x, y) = (-wo.x * ratio, -wo.y * ratio);
+    let off = (lobe.wi.x - x).abs().max((lobe.wi.y - y).abs()).max((lobe.wi.length() - 1.0).abs());
+    let law = if across { "Snell's law" } else { "the mirror image" };
+    (!(off <= close(case))).then(|| format!("a delta lobe is {off:.1e} away from {law}"))
+}
+
+/// The outcome at one direction, as a finding; `configurations` is how many share the significance.
+pub fn at(case: &Case, wo: Vec3<f64>, count: usize, configurations: usize, rng: &mut Random) -> Finding {
+    let outcome = histogram(case, wo, count, rng);
+    let allowed = -sidak(SIGNIFICANCE, configurations).log10();
+    let [x, dof] = outcome.chi_square;
+    match outcome.fault {
+        Some(fault) => Finding::new(case, wo, wo, f64::INFINITY, allowed).with_note(fault),
+        None => {
+            let note = format!("chi-square {x:.0} of {dof:.0}");
+            // 300: the smallest probability that f64 holds
+            Finding::new(case, wo, wo, -outcome.p.max(1e-300).log10(), allowed).with_note(note)
+        }
+    }
+}
+
+/// The smallest p-value of many configurations in the region.
+pub fn worst(subject: &dyn Subject, region: &Region, rng: &mut Random, budget: &Budget, stop: bool) -> Option<Finding> {
+    let findings = (0..budget.histograms).map_while(|_| {
+        let params = region.draw(rng)?;
+        let wo = directions::any(rng, subject.model().domain, 0.0);
+        Some(at(&Case::new(subject, &params), wo, budget.draws, budget.histograms, rng))
+    });
+    worst_of(findings, stop)
+}

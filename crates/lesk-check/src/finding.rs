@@ -1,0 +1,69 @@
+//! What one test of one property found.
+
+use crate::subject::Case;
+use lesk_math::Vec3;
+
+/// A measured value, what is allowed, and where.
+#[derive(Clone, Debug)]
+pub struct Finding {
+    /// The measured value; larger is worse. NaN is worst.
+    pub value: f64,
+    /// The largest value with which the property holds.
+    pub allowed: f64,
+    /// The estimated numerical error of `value`.
+    pub error: f64,
+    /// The flat parameter table.
+    pub params: Vec<f64>,
+    /// The direction to the light.
+    pub wi: Vec3<f64>,
+    /// The direction to the viewer.
+    pub wo: Vec3<f64>,
+    /// What the value does not say.
+    pub note: String,
+}
+
+impl Finding {
+    /// A measurement at one pair of directions.
+    pub fn new(case: &Case, wi: Vec3<f64>, wo: Vec3<f64>, value: f64, allowed: f64) -> Finding {
+        Finding { value, allowed, error: 0.0, params: case.params.to_vec(), wi, wo, note: String::new() }
+    }
+
+    /// The same with an estimate of the error of the value.
+    pub fn with_error(self, error: f64) -> Finding {
+        Finding { error, ..self }
+    }
+
+    /// The same with a remark.
+    pub fn with_note(self, note: impl Into<String>) -> Finding {
+        Finding { note: note.into(), ..self }
+    }
+
+    /// Whether the property fails here.
+    pub fn violates(&self) -> bool {
+        // NaN violates
+        !(self.value <= self.allowed)
+    }
+
+    /// The worse of two findings: a violation before none, then the larger value.
+    pub fn worse(self, other: Finding) -> Finding {
+        let rank = |f: &Finding| (f.violates(), if f.value.is_nan() { f64::INFINITY } else { f.value });
+        let (a, b) = (rank(&self), rank(&other));
+        if b.0 & !a.0 || b.0 == a.0 && b.1 > a.1 { other } else { self }
+    }
+}
+
+/// The worst of many findings; `stop` ends the search at the first violation.
+pub fn worst(findings: impl Iterator<Item = Finding>, stop: bool) -> Option<Finding> {
+    let mut worst: Option<Finding> = None;
+    for finding in findings {
+        let next = match worst {
+            Some(so_far) => so_far.worse(finding),
+            None => finding,
+        };
+        if stop && next.violates() {
+            return Some(next);
+        }
+        worst = Some(next);
+    }
+    worst
+}
