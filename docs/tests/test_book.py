@@ -1,5 +1,6 @@
 """The parts of the book's build that compute something."""
 
+import re
 import sys
 import xml.etree.ElementTree as ET
 from pathlib import Path
@@ -70,3 +71,14 @@ def test_a_formula_is_one_svg_that_carries_its_source(latex):
 def test_a_fraction_in_a_line_hangs_below_its_baseline():
     style = ET.fromstring(svg_math.draw(r"\frac12", display=False)).get("style")
     assert float(style.removeprefix("vertical-align: ").removesuffix("px")) < 0
+
+
+def test_every_paper_that_a_source_names_is_in_the_references():
+    root = Path(__file__).parents[2]
+    known = set(re.findall(r"^@\w+\{(\w+),$", (root / "references.bib").read_text(), re.MULTILINE))
+    named = {
+        (key, str(source.relative_to(root)))
+        for source in root.glob("crates/*/src/**/*.rs")
+        for key in re.findall(r"\b[a-z]{4,}(?:1[789]|20)\d\d[a-z]?\b", source.read_text())
+    }
+    assert {(key, source) for key, source in named if key not in known} == set()
