@@ -73,6 +73,10 @@ impl<const FMA: bool> Real for Lane<FMA> {
         crate::poly::exp2(self)
     }
     #[inline(always)]
+    fn exp(self) -> Self {
+        crate::poly::exp(self)
+    }
+    #[inline(always)]
     fn log2(self) -> Self {
         crate::poly::log2(self)
     }

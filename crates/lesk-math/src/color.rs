@@ -116,6 +116,7 @@ impl<R: Real, const N: usize> Mul<R> for Channels<R, N> {
 impl<R: Real, const N: usize> Div<R> for Channels<R, N> {
     type Output = Self;
     #[inline(always)]
+    #[allow(clippy::suspicious_arithmetic_impl)] // one division instead of three
     fn div(self, s: R) -> Self {
         self * s.recip()
     }

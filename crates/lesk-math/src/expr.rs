@@ -13,6 +13,7 @@
 mod evaluate;
 mod graph;
 
+pub use evaluate::Plain;
 pub use graph::{Binary, Compare, Graph, Id, Logic, Node, Unary, input, record, set_exact};
 
 use crate::real::{Bits, Real};
@@ -50,6 +51,8 @@ fn binary(op: Binary, a: Expr, b: Expr) -> Expr {
         (Mul, Const(1.0), x) | (Mul | Div, x, Const(1.0)) => x,
         (Mul, Const(0.0), _) | (Mul, _, Const(0.0)) | (Div, Const(0.0), _) => Const(0.0),
         (Sub, Const(0.0), x) | (Mul, Const(-1.0), x) | (Mul, x, Const(-1.0)) => -x,
+        // like x * 0, this takes x for finite: the test for non-finite directions stays out of shaders
+        (Sub, x, y) if x == y => Const(0.0),
         _ => Expr::Node(push(Node::Binary(op, a.id(), b.id()))),
     }
 }
@@ -189,7 +192,7 @@ impl Real for Expr {
     }
     fn exp(self) -> Expr {
         if graph::is_exact() {
-            return (self * Expr::lit(core::f64::consts::LOG2_E)).exp2();
+            return crate::poly::exp(self);
         }
         unary(Unary::Exp, self)
     }

@@ -19,13 +19,7 @@ impl<T: Copy + BitAnd<Output = T> + BitOr<Output = T> + Not<Output = T>> Mask fo
 /// assert_eq!(schlick(0.04, 1.0_f64), 0.04);
 /// ```
 pub trait Real:
-    Copy
-    + Add<Output = Self>
-    + Sub<Output = Self>
-    + Mul<Output = Self>
-    + Div<Output = Self>
-    + Neg<Output = Self>
-    + 'static
+    Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self> + Neg<Output = Self> + 'static
 {
     type Mask: Mask;
 
@@ -218,6 +212,10 @@ impl Real for f32 {
     #[inline(always)]
     fn exp2(self) -> f32 {
         crate::poly::exp2(self)
+    }
+    #[inline(always)]
+    fn exp(self) -> f32 {
+        crate::poly::exp(self)
     }
     #[inline(always)]
     fn log2(self) -> f32 {

@@ -33,11 +33,7 @@ impl<R: Real> Vec3<R> {
     }
     #[inline(always)]
     pub fn cross(self, o: Self) -> Self {
-        vec3(
-            self.y * o.z - self.z * o.y,
-            self.z * o.x - self.x * o.z,
-            self.x * o.y - self.y * o.x,
-        )
+        vec3(self.y * o.z - self.z * o.y, self.z * o.x - self.x * o.z, self.x * o.y - self.y * o.x)
     }
     #[inline(always)]
     pub fn length_squared(self) -> R {
@@ -61,11 +57,7 @@ impl<R: Real> Vec3<R> {
     /// `a` where the mask holds, else `b`.
     #[inline(always)]
     pub fn select(mask: R::Mask, a: Self, b: Self) -> Self {
-        vec3(
-            R::select(mask, a.x, b.x),
-            R::select(mask, a.y, b.y),
-            R::select(mask, a.z, b.z),
-        )
+        vec3(R::select(mask, a.x, b.x), R::select(mask, a.y, b.y), R::select(mask, a.z, b.z))
     }
     /// Keeps a name for the vector in exported source.
     #[inline(always)]
@@ -129,6 +121,7 @@ impl<R: Real> Mul<R> for Vec3<R> {
 impl<R: Real> Div<R> for Vec3<R> {
     type Output = Self;
     #[inline(always)]
+    #[allow(clippy::suspicious_arithmetic_impl)] // one division instead of three
     fn div(self, s: R) -> Self {
         self * s.recip()
     }

@@ -1,15 +1,12 @@
 //! Interpreting a graph: the check of every export, and the engine of models that are written at run time.
 
-use super::graph::{Binary, Compare, Graph, Logic, Node, Unary};
 use super::Expr;
+use super::graph::{Binary, Compare, Graph, Logic, Node, Unary};
 use crate::Real;
 
 impl Unary {
     /// The function for a plain number (constant folding and interpretation).
-    pub fn apply<R: Real>(self, x: R) -> R
-    where
-        R: Plain,
-    {
+    pub fn apply<R: Plain>(self, x: R) -> R {
         match self {
             Unary::Neg => -x,
             Unary::Sqrt => x.sqrt(),

@@ -85,8 +85,8 @@ pub struct Graph {
     pub nodes: Vec<Node>,
     /// Names of the inputs, in the order of [`input`] calls.
     pub inputs: Vec<String>,
-    /// Names given by `named`, one entry per named node.
-    pub names: HashMap<u32, &'static str>,
+    /// Node and name of each call of `named`, in order; a vector makes three calls.
+    pub names: Vec<(u32, &'static str)>,
 }
 
 impl Node {
@@ -193,9 +193,7 @@ pub(super) fn node(id: Id) -> Node {
 }
 
 pub(super) fn set_name(id: Id, name: &'static str) {
-    with_arena(|arena| {
-        arena.graph.names.entry(id.index).or_insert(name);
-    });
+    with_arena(|arena| arena.graph.names.push((id.index, name)));
 }
 
 impl Arena {
