@@ -1,1 +1,15 @@
-//! Path tracing: scene to film.
+//! Path tracing: a scene becomes a film.
+//!
+//! [`render`] traces paths from the camera, asks lights directly at every rough surface and weighs both ways of finding
+//! light (multiple importance sampling). Many lights are chosen through a tree; dim paths end by Russian roulette; delta
+//! lobes and transmission are followed. [`checkpoint`] saves and restores exactly.
+//!
+//! It does not denoise, does not clamp, and knows no model by name.
+
+pub mod checkpoint;
+mod path;
+mod render;
+mod split;
+
+pub use render::{End, FilmError, Progress, Settings, film_for, render};
+pub use split::SPLIT_NAMES;
