@@ -35,6 +35,11 @@ pub struct Delta<R> {
     pub probability: R,
 }
 
+impl<R: Real> Delta<R> {
+    /// No lobe: the second place of a model that has only one.
+    pub const NONE: Self = Delta { wi: Vec3::Z, weight: Color::BLACK, probability: R::ZERO };
+}
+
 /// A drawn direction.
 #[derive(Clone, Copy, Debug)]
 pub struct Sample<R> {
@@ -50,6 +55,9 @@ pub struct Sample<R> {
 /// Directions closer to the horizon than this cosine scatter nothing.
 pub const MIN_COS: f64 = 1e-6;
 
+/// A draw of a lower density, in 1/sr, fails: f / pdf would overflow in `f32`. Lobes end at 1e-8 of their peak or before.
+pub const MIN_PDF: f64 = 1e-30;
+
 /// Whether `w` may be an argument of a model of this domain.
 #[inline(always)]
 pub fn in_domain<R: Real>(domain: Domain, w: Vec3<R>) -> R::Mask {
@@ -57,9 +65,9 @@ pub fn in_domain<R: Real>(domain: Domain, w: Vec3<R>) -> R::Mask {
         Domain::Upper => w.z,
         Domain::BothSides | Domain::Sphere => w.z.abs(),
     };
-    // an infinite or NaN component makes the difference NaN, and the comparison false
-    let finite = (w.x - w.x + (w.y - w.y)).le(R::ZERO);
-    z.ge(R::lit(MIN_COS)) & z.le(R::TWO) & finite
+    // an infinite or NaN component makes the product NaN, and the comparison false
+    let finite = ((w.x + w.y + w.z) * R::ZERO).le(R::ZERO);
+    z.ge(R::lit(MIN_COS)) & finite
 }
 
 /// [`Bsdf::eval`], or 0 outside the domain.
@@ -105,7 +113,7 @@ pub fn draw<R: Real, B: Bsdf<R> + ?Sized>(domain: Domain, bsdf: &B, wo: Vec3<R>,
 fn draw_continuous<R: Real, B: Bsdf<R> + ?Sized>(domain: Domain, bsdf: &B, wo: Vec3<R>, u: [R; 3]) -> Sample<R> {
     let wi = bsdf.sample(wo, u);
     let pdf = bsdf.pdf(wi, wo);
-    let valid = in_domain(domain, wi) & in_domain(domain, wo) & pdf.gt(R::ZERO);
+    let valid = in_domain(domain, wi) & in_domain(domain, wo) & pdf.gt(R::lit(MIN_PDF));
     let weight = bsdf.eval(wi, wo) * (wi.z.abs() / R::select(valid, pdf, R::ONE));
     Sample {
         // a failed draw still is a direction: the mirror image of nothing in particular

@@ -39,10 +39,10 @@ pub const MODEL: Model = Model {
 impl<R: Real> Bsdf<R> for Ggx<R> {
     #[inline(always)]
     fn eval(&self, wi: Vec3<R>, wo: Vec3<R>) -> Color<R> {
-        let h = (wi + wo).normalize().named("h");
+        let (h, cos_d) = facet::half(wi, wo);
         let d = ndf::ggx(h, self.alpha_x, self.alpha_y).named("d"); // Eq. 33
         let v = masking::smith_ggx_visibility(wi, wo, self.alpha_x, self.alpha_y).named("v"); // heitz2014 Eq. 99
-        let f = fresnel::schlick(self.f0, wi.dot(h)); // schlick1994; the paper has the exact term
+        let f = fresnel::schlick(self.f0, cos_d); // schlick1994; the paper has the exact term
         f * (d * v) // Eq. 20
     }
 
@@ -53,9 +53,8 @@ impl<R: Real> Bsdf<R> for Ggx<R> {
 
     #[inline(always)]
     fn pdf(&self, wi: Vec3<R>, wo: Vec3<R>) -> R {
-        let h = (wi + wo).normalize();
+        let d = ndf::ggx(wi + wo, self.alpha_x, self.alpha_y);
         // G1(wo) (wo.h) D / wo.z (heitz2018 Eq. 3) times 1/(4 wo.h) (Eq. 14)
-        masking::smith_ggx_g1(wo, self.alpha_x, self.alpha_y) * ndf::ggx(h, self.alpha_x, self.alpha_y)
-            / (R::lit(4.0) * wo.z)
+        R::HALF * masking::smith_ggx_half(wo, self.alpha_x, self.alpha_y) * d
     }
 }

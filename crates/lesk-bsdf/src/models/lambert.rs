@@ -35,7 +35,7 @@ impl<R: Real> Bsdf<R> for Lambert<R> {
 
     #[inline(always)]
     fn sample(&self, _wo: Vec3<R>, u: [R; 3]) -> Vec3<R> {
-        lobe::sample_cosine(u)
+        lobe::sample_cosine([u[0], u[1]])
     }
 
     #[inline(always)]

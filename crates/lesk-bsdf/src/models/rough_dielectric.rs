@@ -9,7 +9,8 @@ use crate::prelude::*;
 ///    f_t = \frac{|\omega_i\cdot h|\,|\omega_o\cdot h|}{|\cos\theta_i|\,|\cos\theta_o|}
 ///          \frac{\eta_o^2\,(1-F)\,D\,G}{(\eta_i\,\omega_i\cdot h + \eta_o\,\omega_o\cdot h)^2} $$
 ///
-/// Single scattering only: a rough surface loses energy (see the albedo plot).
+/// Single scattering only: a rough surface loses energy (see the albedo plot). Between equal media there would be no
+/// density, as every facet lets light pass straight on: an index within 0.001 of 1 counts as 1.001.
 #[derive(Params)]
 pub struct RoughDielectric<R> {
     /// Refractive index below the surface divided by the one above.
@@ -40,48 +41,63 @@ pub const MODEL: Model = Model {
     ..Model::DEFAULT
 };
 
+/// Of a direction that facets scatter, what the formulas need.
+struct Facet<R: Real> {
+    /// D of the facet that joins `wi` and `wo`.
+    d: R,
+    /// F where it reflects, 1 - F where it refracts.
+    share: R,
+    /// |wi.h| |wo.h| / (wo.h + eta wi.h)^2; 1/4 where it reflects.
+    jacobian: R,
+    /// eta_i / eta_o: 1 where it reflects.
+    eta: R,
+    /// Whether both directions see its right side (Eq. 34's chi).
+    facing: R::Mask,
+}
+
 impl<R: Real> RoughDielectric<R> {
     /// Index of refraction on the far side of `wo` divided by that on its own.
     #[inline(always)]
-    fn eta(&self, wo: Vec3<R>) -> R {
-        R::select(wo.z.gt(R::ZERO), self.ior, self.ior.recip())
+    fn far(&self, wo: Vec3<R>) -> R {
+        let matched = (self.ior - R::ONE).abs().lt(R::lit(1e-3));
+        let ior = R::select(matched, R::lit(1.001), self.ior);
+        R::select(wo.z.gt(R::ZERO), ior, ior.recip())
     }
 
-    /// The facet normal (z > 0) that joins `wi` and `wo`, by reflection (Eq. 13) or by refraction (Eq. 16).
+    /// The facet that joins `wi` and `wo`, by reflection (Eq. 13) or by refraction (Eq. 16).
     #[inline(always)]
-    fn facet(&self, wi: Vec3<R>, wo: Vec3<R>) -> Vec3<R> {
+    fn facet(&self, wi: Vec3<R>, wo: Vec3<R>) -> Facet<R> {
         let reflects = (wi.z * wo.z).gt(R::ZERO);
-        let h = wo + wi * R::select(reflects, R::ONE, self.eta(wo));
-        let h = h.normalize();
-        Vec3::select(h.z.lt(R::ZERO), -h, h)
-    }
-
-    #[inline(always)]
-    fn d(&self, h: Vec3<R>) -> R {
-        ndf::ggx(h, self.alpha_x, self.alpha_y)
+        let far = self.far(wo).named("far");
+        let eta = R::select(reflects, R::ONE, far).named("eta");
+        let h = (wo + wi * eta).named("h");
+        // (wo + eta wi).h is the length of wo + eta wi, and at least |eta - 1|. The cosines follow from it; their dot
+        // products would cancel for eta near 1
+        let s2 = h.length_squared().max((eta - R::ONE).sqr()).named("s2");
+        let k = (eta - R::ONE) * (eta + R::ONE);
+        let half_recip = R::HALF / s2.sqrt();
+        let (i_h, o_h) = ((s2 + k) * half_recip / eta, (s2 - k) * half_recip);
+        let fresnel = fresnel::dielectric(far, o_h.abs()).named("fresnel"); // Eq. 22
+        Facet {
+            d: ndf::ggx(h, self.alpha_x, self.alpha_y).named("d"), // Eq. 33
+            share: R::select(reflects, fresnel, fresnel.one_minus()),
+            jacobian: (i_h * o_h).abs() / s2,
+            eta,
+            facing: (o_h * h.z * wo.z).gt(R::ZERO) & (i_h * h.z * wi.z).gt(R::ZERO),
+        }
     }
 }
 
 impl<R: Real> Bsdf<R> for RoughDielectric<R> {
     #[inline(always)]
     fn eval(&self, wi: Vec3<R>, wo: Vec3<R>) -> Color<R> {
-        let reflects = (wi.z * wo.z).gt(R::ZERO);
-        let eta = self.eta(wo).named("eta");
-        let h = self.facet(wi, wo).named("h");
-        let (i_h, o_h) = (wi.dot(h), wo.dot(h));
-        let g1i = masking::smith_ggx_g1(wi, self.alpha_x, self.alpha_y);
-        let g1o = masking::smith_ggx_g1(wo, self.alpha_x, self.alpha_y);
-        let dg = (self.d(h) * g1i * g1o).named("dg"); // Eq. 23, 33, 34
-        let fresnel = fresnel::dielectric(eta, o_h.abs()).named("fresnel"); // Eq. 22
-        let cosines = (wi.z * wo.z).abs();
-        let reflected = fresnel * dg / (R::lit(4.0) * cosines); // Eq. 20
-        // Eq. 21 with both sides divided by eta_o^2: eta = eta_i / eta_o
-        let s = o_h + eta * i_h;
-        let transmitted = (i_h * o_h).abs() * fresnel.one_minus() * dg / (cosines * s * s);
-        // a facet seen from behind is masked (Eq. 34's chi)
-        let facing = (o_h * wo.z).gt(R::ZERO) & (i_h * wi.z).gt(R::ZERO);
-        let f = R::select(reflects, reflected, transmitted);
-        Color::splat(R::select(facing, f, R::ZERO))
+        let facet = self.facet(wi, wo);
+        // G1(wi) G1(wo) / |4 cos_i cos_o|: Eq. 23, 34
+        let v = masking::smith_ggx_half(wi, self.alpha_x, self.alpha_y)
+            * masking::smith_ggx_half(wo, self.alpha_x, self.alpha_y);
+        // Eq. 21 over eta_o^2, and Eq. 20, for which the Jacobian is 1/4
+        let f = R::lit(4.0) * facet.jacobian * facet.share * facet.d * v.named("v");
+        Color::splat(R::select(facet.facing, f, R::ZERO))
     }
 
     #[inline(always)]
@@ -89,29 +105,21 @@ impl<R: Real> Bsdf<R> for RoughDielectric<R> {
         let below = wo.z.lt(R::ZERO);
         let up = Vec3::select(below, -wo, wo);
         let h = ndf::sample_ggx_visible(up, self.alpha_x, self.alpha_y, [u[0], u[1]]);
-        let eta = self.eta(wo);
+        let eta = self.far(wo);
         let c = up.dot(h);
-        let fresnel = fresnel::dielectric(eta, c);
-        // Eq. 40: the refracted direction about h
-        let cos_t = (R::ONE - (R::ONE - c * c) / (eta * eta)).safe_sqrt();
-        let refracted = h * (c / eta - cos_t) - up / eta;
-        let wi = Vec3::select(u[2].lt(fresnel), up.reflect(h), refracted);
+        // Eq. 40: the refracted direction about h, with g - c = (eta^2 - 1)/(g + c)
+        let g = fresnel::refracted_normal2(eta, c).safe_sqrt();
+        let refracted = -(up + h * ((eta - R::ONE) * (eta + R::ONE) / (g + c))) / eta;
+        let wi = Vec3::select(u[2].lt(fresnel::dielectric(eta, c)), up.reflect(h), refracted);
         Vec3::select(below, -wi, wi)
     }
 
     #[inline(always)]
     fn pdf(&self, wi: Vec3<R>, wo: Vec3<R>) -> R {
-        let reflects = (wi.z * wo.z).gt(R::ZERO);
-        let eta = self.eta(wo);
-        let h = self.facet(wi, wo);
-        let (i_h, o_h) = (wi.dot(h), wo.dot(h));
-        let fresnel = fresnel::dielectric(eta, o_h.abs());
-        // heitz2018 Eq. 3: the density of the facet
-        let visible = masking::smith_ggx_g1(wo, self.alpha_x, self.alpha_y) * o_h.abs() * self.d(h) / wo.z.abs();
-        let s = o_h + eta * i_h;
-        let reflected = fresnel / (R::lit(4.0) * o_h.abs()); // Eq. 14
-        let transmitted = fresnel.one_minus() * eta * eta * i_h.abs() / (s * s); // Eq. 17
-        let facing = (o_h * wo.z).gt(R::ZERO) & (i_h * wi.z).gt(R::ZERO);
-        R::select(facing, visible * R::select(reflects, reflected, transmitted), R::ZERO)
+        let facet = self.facet(wi, wo);
+        // G1(wo) |wo.h| D / |cos_o| (heitz2018 Eq. 3) times dh/dwi (Eq. 14, 17): the Jacobian holds |wo.h|
+        let visible = R::TWO * masking::smith_ggx_half(wo, self.alpha_x, self.alpha_y) * facet.d;
+        let pdf = visible * facet.share * facet.jacobian * facet.eta * facet.eta;
+        R::select(facet.facing, pdf, R::ZERO)
     }
 }

@@ -5,18 +5,33 @@ use lesk_math::{Color, Real};
 /// Schlick's approximation (schlick1994): F0 + (1 - F0)(1 - cos)^5.
 #[inline(always)]
 pub fn schlick<R: Real>(f0: Color<R>, cos_theta: R) -> Color<R> {
-    let m = cos_theta.one_minus().powi(5);
+    let m = schlick_weight(cos_theta);
     f0.map(|f0| m.fma(f0.one_minus(), f0))
 }
 
-/// Exact unpolarised reflectance of a dielectric boundary; `cos_theta` >= 0 on the side where light comes from,
-/// `eta` = n(other side) / n(this side). Total internal reflection gives 1.
+/// The (1 - cos)^5 of Schlick's approximation.
+#[inline(always)]
+pub fn schlick_weight<R: Real>(cos_theta: R) -> R {
+    cos_theta.one_minus().powi(5)
+}
+
+/// The squared length eta cos_t of the refracted direction's part along the normal: eta^2 - sin^2; at most 0 where
+/// reflection is total. Near eta = 1 and at grazing angles the product keeps the digits that a square would lose.
+#[inline(always)]
+pub fn refracted_normal2<R: Real>(eta: R, cos_theta: R) -> R {
+    cos_theta.fma(cos_theta, (eta - R::ONE) * (eta + R::ONE))
+}
+
+/// Exact unpolarised reflectance of a dielectric boundary (fresnel1823); `cos_theta` >= 0 on the side where light
+/// comes from, `eta` = n(other side) / n(this side). Total internal reflection gives 1.
 #[inline(always)]
 pub fn dielectric<R: Real>(eta: R, cos_theta: R) -> R {
-    let g2 = eta.fma(eta, cos_theta.fma(cos_theta, -R::ONE));
+    let g2 = refracted_normal2(eta, cos_theta);
     let g = g2.safe_sqrt();
     let c = cos_theta;
-    let a = (g - c) / (g + c);
+    // (g - c)/(g + c) with g^2 - c^2 = eta^2 - 1
+    let sum = g + c;
+    let a = (eta - R::ONE) * (eta + R::ONE) / (sum * sum);
     let b = (c * (g + c) - R::ONE) / (c * (g - c) + R::ONE);
     let f = R::HALF * a * a * (R::ONE + b * b);
     R::select(g2.gt(R::ZERO), f, R::ONE)
