@@ -2,6 +2,7 @@
 
 crate::registry::registry! {
     lambert: Lambert,
+    mirror: Mirror,
     ggx: Ggx,
     rough_dielectric: RoughDielectric,
 }
