@@ -3,6 +3,7 @@
 crate::registry::registry! {
     lambert: Lambert,
     mirror: Mirror,
+    conductor: Conductor,
     ggx: Ggx,
     rough_dielectric: RoughDielectric,
 }
