@@ -4,6 +4,7 @@ crate::registry::registry! {
     lambert: Lambert,
     mirror: Mirror,
     conductor: Conductor,
+    dielectric: Dielectric,
     ggx: Ggx,
     rough_dielectric: RoughDielectric,
 }
