@@ -5,6 +5,7 @@ crate::registry::registry! {
     mirror: Mirror,
     conductor: Conductor,
     dielectric: Dielectric,
+    phong: Phong,
     ggx: Ggx,
     rough_dielectric: RoughDielectric,
 }
