@@ -6,6 +6,7 @@ crate::registry::registry! {
     conductor: Conductor,
     dielectric: Dielectric,
     phong: Phong,
+    blinn_phong: BlinnPhong,
     ggx: Ggx,
     rough_dielectric: RoughDielectric,
 }
