@@ -7,6 +7,7 @@ crate::registry::registry! {
     dielectric: Dielectric,
     phong: Phong,
     blinn_phong: BlinnPhong,
+    modified_phong: ModifiedPhong,
     ggx: Ggx,
     rough_dielectric: RoughDielectric,
 }
