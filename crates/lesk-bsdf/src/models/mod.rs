@@ -8,6 +8,7 @@ crate::registry::registry! {
     phong: Phong,
     blinn_phong: BlinnPhong,
     modified_phong: ModifiedPhong,
+    ward: Ward,
     ggx: Ggx,
     rough_dielectric: RoughDielectric,
 }
