@@ -9,6 +9,7 @@ crate::registry::registry! {
     blinn_phong: BlinnPhong,
     modified_phong: ModifiedPhong,
     ward: Ward,
+    oren_nayar: OrenNayar,
     ggx: Ggx,
     rough_dielectric: RoughDielectric,
 }
