@@ -10,6 +10,7 @@ crate::registry::registry! {
     modified_phong: ModifiedPhong,
     ward: Ward,
     oren_nayar: OrenNayar,
+    cook_torrance: CookTorrance,
     ggx: Ggx,
     rough_dielectric: RoughDielectric,
 }
