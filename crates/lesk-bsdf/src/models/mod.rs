@@ -12,5 +12,6 @@ crate::registry::registry! {
     oren_nayar: OrenNayar,
     cook_torrance: CookTorrance,
     ggx: Ggx,
+    ggx_conductor: GgxConductor,
     rough_dielectric: RoughDielectric,
 }
