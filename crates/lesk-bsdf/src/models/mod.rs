@@ -13,5 +13,6 @@ crate::registry::registry! {
     cook_torrance: CookTorrance,
     ggx: Ggx,
     ggx_conductor: GgxConductor,
+    ggx_conductor_separable: GgxConductorSeparable,
     rough_dielectric: RoughDielectric,
 }
