@@ -15,4 +15,5 @@ crate::registry::registry! {
     ggx_conductor: GgxConductor,
     ggx_conductor_separable: GgxConductorSeparable,
     rough_dielectric: RoughDielectric,
+    disney_2012: Disney2012,
 }
