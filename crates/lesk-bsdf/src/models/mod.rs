@@ -16,4 +16,5 @@ crate::registry::registry! {
     ggx_conductor_separable: GgxConductorSeparable,
     rough_dielectric: RoughDielectric,
     disney_2012: Disney2012,
+    metallic_roughness: MetallicRoughness,
 }
