@@ -8,6 +8,7 @@
 //! | [`WorldBuilder`] → [`World`] | instances of geometries; nearest hit, occlusion, surface at a hit |
 //! | [`Surface`] | position, normals, texture coordinates and tangent; where the next ray starts |
 //! | [`AreaSampler`] | points on a placed geometry by area or by solid angle |
+//! | [`import`] | OBJ, PLY, glTF into plain data |
 //!
 //! ```
 //! use lesk_geometry::{Geometry, Ray, Transform, WorldBuilder};
@@ -39,6 +40,7 @@
 mod bounds;
 mod bvh;
 mod error;
+pub mod import;
 mod mesh;
 mod ray;
 mod robust;

@@ -4,8 +4,11 @@
 //! Every reader bounds what a file declares by the bytes that it has, and returns an [`Error`] for anything else.
 
 pub mod gltf;
+mod mtl;
 pub mod obj;
 pub mod ply;
+mod polygon;
+mod source;
 
 use crate::error::{Error, Result};
 use crate::mesh::{Mesh, MeshData};
@@ -179,7 +182,7 @@ pub enum Alpha {
 pub struct Texture {
     /// Where the image comes from.
     pub image: ImageSource,
-    /// Which set of texture coordinates it uses; meshes hold set 0.
+    /// Which set of texture coordinates it uses. A mesh holds one set: that of its base colour, else set 0.
     pub uv_set: u32,
     /// How it continues beyond 0 to 1, along u and v.
     pub wrap: [Wrap; 2],
@@ -187,7 +190,9 @@ pub struct Texture {
     pub smooth: bool,
     /// Scale of the texture coordinates, along u and v (MTL `-s`); 1 where not stated.
     pub scale: [f32; 2],
-    /// Offset of the scaled texture coordinates (MTL `-o`).
+    /// Then a turn, radians from +u towards +v of an image whose first row is at v = 0 (`KHR_texture_transform`).
+    pub rotation: f32,
+    /// Then an offset (MTL `-o`).
     pub offset: [f32; 2],
 }
 
@@ -311,11 +316,7 @@ impl Asset {
             self.warn(format!("{place}: no triangle left, dropped"));
             return Ok(None);
         }
-        self.meshes.push(NamedMesh {
-            name: name.to_string(),
-            mesh: Arc::new(mesh),
-            material,
-        });
+        self.meshes.push(NamedMesh { name: name.to_string(), mesh: Arc::new(mesh), material });
         Ok(Some(self.meshes.len() - 1))
     }
 
