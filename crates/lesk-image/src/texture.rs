@@ -151,7 +151,7 @@ impl Texture {
             Channel::Red => r,
             Channel::Green => g,
             Channel::Blue => b,
-            Channel::Alpha if self.channels % 2 == 0 => texel[self.channels - 1],
+            Channel::Alpha if self.channels.is_multiple_of(2) => texel[self.channels - 1],
             Channel::Alpha => 1.0,
             Channel::Luminance => lesk_math::Channels([r, g, b]).luminance(),
         }

@@ -99,7 +99,7 @@ pub fn meter(image: &Image) -> Option<f64> {
 pub fn develop(linear: &Image, ev100: f64, mapper: ToneMapper) -> Image {
     let scale = exposure::scale(ev100) as f32;
     let grey = linear.channels() < 3;
-    let alpha = linear.channels() % 2 == 0;
+    let alpha = linear.channels().is_multiple_of(2);
     let channels = if grey { 1 } else { 3 } + usize::from(alpha);
     let mut data = Vec::with_capacity(linear.data().len());
     for pixel in linear.data().chunks_exact(linear.channels()) {

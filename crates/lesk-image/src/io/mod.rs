@@ -165,3 +165,52 @@ fn check_declared(
     }
     Ok(pixels)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn formats_are_known_by_bytes_and_by_name() {
+        assert_eq!(Format::of_bytes(b"#?RGBE\n"), Some(Format::Hdr));
+        assert_eq!(Format::of_bytes(b"GIF89a"), None);
+        assert_eq!(Format::of_name(Path::new("a/b.EXR")), Some(Format::Exr));
+        assert_eq!(Format::of_name(Path::new("exr")), None);
+    }
+
+    #[test]
+    fn a_file_of_no_known_format_is_named_with_its_first_bytes() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a.png");
+        std::fs::write(&path, b"GIF89a").unwrap();
+        let text = read(&path).unwrap_err().to_string();
+        let expected = "not a valid image file: it begins with 47 49 46 38, but EXR, PNG, HDR and JPEG are known, in `";
+        assert!(text.starts_with(expected), "{text}");
+        std::fs::write(&path, b"").unwrap();
+        assert!(read(&path).unwrap_err().to_string().contains("it is empty"));
+    }
+
+    #[test]
+    fn a_missing_file_and_a_folder_are_errors_with_the_path() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("missing.exr");
+        assert!(read(&path).unwrap_err().to_string().starts_with("cannot read `"));
+        assert!(read(folder.path()).is_err());
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn a_device_without_end_is_refused_at_once() {
+        assert!(read("/dev/zero").unwrap_err().to_string().contains("begins with 00 00 00 00"));
+    }
+
+    #[test]
+    fn planes_of_a_png_are_its_channels() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a.png");
+        let image = Image::from_fn(3, 2, crate::Transfer::Srgb, |x, _| [x as f32 / 2.0, 1.0]).unwrap();
+        write(&path, &image).unwrap();
+        let planes = read_planes(&path).unwrap();
+        assert_eq!((planes.width(), planes.plane("A").unwrap().samples.get(0)), (3, 1.0));
+    }
+}

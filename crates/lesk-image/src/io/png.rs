@@ -113,3 +113,7 @@ fn codes(image: &Image, depth: Depth) -> Vec<u8> {
     }
     bytes
 }
+
+#[cfg(test)]
+#[path = "png_tests.rs"]
+mod tests;

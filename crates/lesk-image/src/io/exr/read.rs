@@ -3,6 +3,7 @@
 use crate::image::check_size;
 use crate::io::check_declared;
 use crate::{ImageError, Planes, Samples};
+use ::exr::block::chunk::CompressedBlock;
 use ::exr::image::{AnyChannels, FlatSamples, Layer};
 use ::exr::meta::attribute::{AttributeValue, LevelMode};
 use ::exr::meta::header::Header;
@@ -30,6 +31,9 @@ const DWA_RATIO: u128 = 64 * RATIO;
 pub fn decode(bytes: &[u8]) -> Result<Planes, ImageError> {
     let meta = MetaData::read_from_buffered(Cursor::new(bytes), false).map_err(|e| malformed(e.to_string()))?;
     check(&meta.headers, bytes.len())?;
+    if meta.headers.iter().any(is_dwa) {
+        check_dwa(bytes)?;
+    }
     let image = ::exr::prelude::read()
         .no_deep_data()
         .largest_resolution_level()
@@ -102,7 +106,7 @@ fn check(headers: &[Header], bytes: usize) -> Result<(), ImageError> {
     for header in headers {
         declared += check_part(header)?;
     }
-    let dwa = headers.iter().any(|h| matches!(h.compression, Compression::DWAA(_) | Compression::DWAB(_)));
+    let dwa = headers.iter().any(is_dwa);
     let size = headers[0].layer_size;
     let size = (size.width() as u64, size.height() as u64);
     check_declared("EXR", size, declared, bytes, if dwa { DWA_RATIO } else { RATIO })?;
@@ -141,6 +145,39 @@ fn check_part(header: &Header) -> Result<u128, ImageError> {
     }
     debug_assert!(copies >= 1);
     Ok(u128::from(width) * u128::from(height) * per_pixel)
+}
+
+fn is_dwa(header: &Header) -> bool {
+    matches!(header.compression, Compression::DWAA(_) | Compression::DWAB(_))
+}
+
+/// The sizes that DWA blocks declare of their sections; the crate exr takes them at their word.
+fn check_dwa(bytes: &[u8]) -> Result<(), ImageError> {
+    let failed = |error: ::exr::error::Error| malformed(error.to_string());
+    let reader = ::exr::block::read(Cursor::new(bytes), false).map_err(failed)?;
+    let headers = reader.meta_data().headers.clone();
+    for chunk in reader.filter_chunks(false, |_, _, _| true).map_err(failed)? {
+        let chunk = chunk.map_err(failed)?;
+        let Some(header) = headers.get(chunk.layer_index).filter(|h| is_dwa(h)) else { continue };
+        let data = match &chunk.compressed_block {
+            CompressedBlock::ScanLine(block) => &block.compressed_pixels_le,
+            CompressedBlock::Tile(block) => &block.compressed_pixels_le,
+            _ => continue,
+        };
+        let place = header.get_block_data_indices(&chunk.compressed_block).map_err(failed)?;
+        let size = header.get_absolute_block_pixel_coordinates(place).map_err(failed)?.size;
+        if data.len() == size.area() * header.channels.bytes_per_pixel {
+            continue; // not compressed
+        }
+        // coefficients come in squares of 8 x 8; runs at their worst double the bytes
+        let padded = size.width().next_multiple_of(8) * size.height().next_multiple_of(8);
+        let limit = 2 * (padded * header.channels.bytes_per_pixel) as u64 + 1024;
+        // a version, then nine sizes and counts of sections
+        if data.as_chunks::<8>().0.iter().take(10).any(|n| u64::from_le_bytes(*n) > limit) {
+            return Err(malformed("a DWA block declares sections that are larger than its pixels"));
+        }
+    }
+    Ok(())
 }
 
 /// Places far off the origin overflow in readers.
