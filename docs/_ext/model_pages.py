@@ -5,7 +5,7 @@ import subprocess
 from pathlib import Path
 
 PROPERTIES = {
-    "reciprocal": "Swapping the two directions changes nothing (Helmholtz).",
+    "reciprocal": "Swapping the directions changes nothing but the squared index (Helmholtz).",
     "passive": "No more power leaves than arrives.",
     "samples_itself": "The density that `pdf` reports is the one that `sample` draws from.",
     "isotropic": "Turning both directions about the normal changes nothing.",
@@ -50,6 +50,8 @@ def claim_rows(model):
     """One row per property: whether it is claimed, under which condition, or why it fails."""
     claims = {claim["property"]: claim["when"] for claim in model["claims"]}
     refuted = {c["property"]: c["because"] for c in model.get("counterexamples", [])}
+    if unknown := (claims.keys() | refuted.keys()) - PROPERTIES.keys():
+        raise KeyError(f"no meaning is written for the properties {sorted(unknown)}")
     for name, meaning in PROPERTIES.items():
         if name in claims:
             holds = f"where `{claims[name]}`" if claims[name] else "always"
@@ -63,7 +65,7 @@ def page(model):
     name = model["id"]
     return f"""# {model["title"]}
 
-`{name}`, {model["year"]}, {{cite:t}}`{model["paper"]}`
+`{name}`, {{cite:t}}`{model["paper"]}`
 
 {model["doc"].strip()}
 
