@@ -130,7 +130,7 @@ impl Environment {
     }
 
     fn look_up(&self, [x, y]: [f64; 2]) -> Color<f32> {
-        color(self.texture.rgb([x as f32, (1.0 - y) as f32])) * self.scale
+        rec709(self.texture.rgb([x as f32, (1.0 - y) as f32])) * self.scale
     }
 
     /// The place in the picture, from its upper left corner, of a direction.
@@ -170,8 +170,8 @@ impl Environment {
     }
 }
 
-/// The colour of this build.
-fn color(rgb: [f32; 3]) -> Color<f32> {
+/// The colour of this build from linear Rec.709: itself, or its luminance where there is one channel.
+pub fn rec709(rgb: [f32; 3]) -> Color<f32> {
     let mut out = Color::splat(Channels(rgb).luminance());
     if CHANNELS == 3 {
         for c in 0..CHANNELS {

@@ -46,7 +46,7 @@ mod triangle;
 pub use area::Area;
 pub use bounds::LightBounds;
 pub use directional::Directional;
-pub use environment::{Environment, Up};
+pub use environment::{Environment, Up, rec709};
 pub use error::LightError;
 pub use light::Light;
 pub use lights::Lights;

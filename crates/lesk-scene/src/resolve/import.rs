@@ -1,0 +1,216 @@
+//! Meshes of other programs, with their materials and lights.
+
+use super::Resolver;
+use super::objects::{Part, about};
+use crate::description::{MaterialDescription, Normals, ObjectDescription, Picture, TextureDescription};
+use crate::error::Place;
+use lesk_geometry::Transform;
+use lesk_geometry::import::{
+    Alpha, Asset, Description, ImageSource, LightKind, MetallicRoughness, Mtl, Texture, Wrap as AssetWrap,
+};
+use lesk_image::texture::{Channel, Interpolation, Wrap};
+use lesk_light::{Area, Directional, Light, LightError, Point, Spot, rec709};
+use lesk_math::{Vec3, vec3};
+use std::path::Path;
+
+/// What a material of a file became.
+#[derive(Clone, Copy)]
+struct Imported {
+    material: Option<u32>,
+    /// Luminance that it emits, cd/m².
+    emission: [f32; 3],
+    two_sided: bool,
+}
+
+impl Resolver<'_> {
+    /// Places everything of a file.
+    pub(super) fn file(
+        &mut self,
+        d: &ObjectDescription,
+        file: &Path,
+        normals: Normals,
+        transform: Transform,
+        material: Option<u32>,
+    ) {
+        let asset = self.files.asset(file);
+        let Some((path, asset)) = self.check(d.place, &about(&d.name), asset) else { return };
+        asset.warnings.iter().for_each(|w| self.note(format!("{}: {w}", path.display())));
+        let imported = self.imported(&path, &asset, material, d.place);
+        for placed in &asset.instances {
+            let mesh = &asset.meshes[placed.mesh];
+            let own = mesh.material.and_then(|i| imported.get(i).copied());
+            let number = material.or(own.and_then(|own| own.material));
+            if number.is_none() && d.light.is_none() {
+                let name = path.display();
+                let text =
+                    format!("mesh `{}` of `{name}` has no material\nhint: give the object a `material`", mesh.name);
+                self.check::<(), _>(d.place, "", Err(text));
+                return;
+            }
+            let part = Part {
+                name: if placed.name.is_empty() { &d.name } else { &placed.name },
+                geometry: self.mesh(&mesh.mesh, normals),
+                transform: transform * placed.world_from_local,
+                material: number,
+                place: d.place,
+            };
+            match own.filter(|own| material.is_none() && d.light.is_none() && own.emission != [0.0; 3]) {
+                Some(own) => self.glowing(part, own, d.place),
+                None => self.instance(part, d),
+            }
+        }
+        for light in &asset.lights {
+            self.file_light(light, &path, &transform, d.place);
+        }
+    }
+
+    fn glowing(&mut self, part: Part, own: Imported, place: Place) {
+        let area = Area::new(self.geometry(part.geometry), &part.transform, rec709(own.emission), own.two_sided);
+        if let Some(area) = self.check(place, &about(part.name), area) {
+            self.instance_with(part, Some(area));
+        }
+    }
+
+    /// The materials of a file as materials of the scene, made once per file.
+    fn imported(&mut self, path: &Path, asset: &Asset, material: Option<u32>, place: Place) -> Vec<Imported> {
+        let file = path.display().to_string();
+        let mut out = Vec::new();
+        for (i, m) in asset.materials.iter().enumerate() {
+            let name = if m.name.is_empty() { format!("{file}#{i}") } else { format!("{file}#{}", m.name) };
+            let (description, emission, two_sided) = match &m.description {
+                Description::Mtl(mtl) => (self.mtl(&name, mtl), mtl.ke, false),
+                Description::MetallicRoughness(mr) => {
+                    (self.metallic_roughness(&name, mr), mr.emissive, mr.double_sided)
+                }
+            };
+            let textured = match &m.description {
+                Description::Mtl(mtl) => mtl.map_ke.is_some(),
+                Description::MetallicRoughness(mr) => mr.emissive_texture.is_some(),
+            };
+            let emission = if textured && emission != [0.0; 3] {
+                self.note(format!("material `{name}`: emission textures are not supported, it emits nothing"));
+                [0.0; 3]
+            } else {
+                emission
+            };
+            // an override needs none of the file's materials
+            let number = if material.is_none() { self.imported_material(&name, description, place) } else { None };
+            out.push(Imported { material: number, emission, two_sided });
+        }
+        out
+    }
+
+    fn imported_material(&mut self, name: &str, mut d: MaterialDescription, place: Place) -> Option<u32> {
+        if let Some(known) = self.material_names.get(name) {
+            return *known;
+        }
+        d.place = place;
+        d.params.iter_mut().for_each(|(_, _, p)| *p = place);
+        let number = self.material(&d).map(|m| self.add_material(m));
+        self.material_names.insert(name.to_string(), number);
+        number
+    }
+
+    fn mtl(&mut self, name: &str, mtl: &Mtl) -> MaterialDescription {
+        if mtl.d < 1.0 {
+            self.note(format!("material `{name}`: opacity {} is ignored, the surface is opaque", mtl.d));
+        }
+        let (kd, ks) = (mtl.kd.map(unit), mtl.ks.map(unit));
+        if ks == [0.0; 3] && mtl.map_ks.is_none() {
+            return with_image(MaterialDescription::new(name, "lambert"), "reflectance", kd, mtl.map_kd.as_ref());
+        }
+        // both together may not reflect more than arrives
+        let most = (0..3).map(|c| kd[c] + ks[c]).fold(1.0, f64::max);
+        if most > 1.0 {
+            self.note(format!("material `{name}`: Kd + Ks is {most:.3}, both are divided by it"));
+        }
+        let m =
+            MaterialDescription::new(name, "modified_phong").set("shininess", &[f64::from(mtl.ns).clamp(1.0, 1000.0)]);
+        let m = with_image(m, "diffuse", kd.map(|v| v / most), mtl.map_kd.as_ref());
+        with_image(m, "specular", ks.map(|v| v / most), mtl.map_ks.as_ref())
+    }
+
+    fn metallic_roughness(&mut self, name: &str, mr: &MetallicRoughness) -> MaterialDescription {
+        if mr.normal_texture.is_some() {
+            self.note(format!("material `{name}`: normal textures are not supported, the surface is smooth"));
+        }
+        if mr.alpha != Alpha::Opaque {
+            self.note(format!("material `{name}`: opacity is ignored, the surface is opaque"));
+        }
+        if mr.transmission > 0.0 {
+            self.note(format!("material `{name}`: transmission {} is ignored", mr.transmission));
+        }
+        let [r, g, b, _] = mr.base_color.map(unit);
+        let mut m = MaterialDescription::new(name, "metallic_roughness");
+        m = with_image(m, "base_color", [r, g, b], mr.base_color_texture.as_ref());
+        let image = mr.metallic_roughness_texture.as_ref();
+        // roughness is in green, metalness in blue
+        for (param, factor, channel) in
+            [("metallic", mr.metallic, Channel::Blue), ("roughness", mr.roughness, Channel::Green)]
+        {
+            m = match image {
+                None => m.set(param, &[unit(factor)]),
+                Some(image) => {
+                    let mut t = texture(image);
+                    (t.channel, t.scale) = (channel, [unit(factor); 3]);
+                    m.texture(param, t)
+                }
+            };
+        }
+        m
+    }
+
+    fn file_light(&mut self, d: &lesk_geometry::import::Light, path: &Path, transform: &Transform, place: Place) {
+        if d.intensity == 0.0 || d.color == [0.0; 3] {
+            return;
+        }
+        let world = *transform * d.world_from_local;
+        let position = world.point(Vec3::ZERO);
+        let direction = world.vector(vec3(0.0, 0.0, -1.0));
+        let value = rec709(d.color.map(|c| c * d.intensity));
+        let light: Result<Light, LightError> = match d.kind {
+            LightKind::Point => Point::new(position, value).map(Light::Point),
+            LightKind::Directional => Directional::new(direction, value).map(Light::Directional),
+            LightKind::Spot { inner, outer } => {
+                Spot::new(position, direction, value, [f64::from(inner), f64::from(outer)]).map(Light::Spot)
+            }
+        };
+        let about = format!("light `{}` of `{}`", d.name, path.display());
+        if let Some(light) = self.check(place, &about, light) {
+            self.lights.push(light);
+        }
+    }
+}
+
+/// A factor of a file within 0 to 1.
+fn unit(v: f32) -> f64 {
+    f64::from(v).clamp(0.0, 1.0)
+}
+
+fn with_image(m: MaterialDescription, name: &str, factor: [f64; 3], image: Option<&Texture>) -> MaterialDescription {
+    match image {
+        None => m.set(name, &factor),
+        Some(image) => {
+            let mut t = texture(image);
+            t.scale = factor;
+            m.texture(name, t)
+        }
+    }
+}
+
+fn texture(image: &Texture) -> TextureDescription {
+    let picture = match &image.image {
+        ImageSource::File(path) => Picture::File(path.clone()),
+        ImageSource::Embedded { bytes, .. } => Picture::Encoded(bytes.clone()),
+    };
+    let wrap = |w| match w {
+        AssetWrap::Repeat => Wrap::Repeat,
+        AssetWrap::Mirror => Wrap::Mirror,
+        AssetWrap::Clamp => Wrap::Clamp,
+    };
+    let mut t = TextureDescription::new(picture);
+    t.wrap = image.wrap.map(wrap);
+    t.interpolation = if image.smooth { Interpolation::Bilinear } else { Interpolation::Nearest };
+    t.uv = [image.scale, image.offset];
+    t
+}

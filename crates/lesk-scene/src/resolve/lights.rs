@@ -1,0 +1,174 @@
+//! Lights: quantities become photometric values, watts through their spectrum.
+
+use super::Resolver;
+use super::objects::Part;
+use crate::description::{
+    AreaLightDescription, Emission, EnvironmentDescription, EnvironmentKind, LightColor, LightDescription, LightKind,
+    MapStrength, Picture,
+};
+use crate::error::{Place, Problem};
+use lesk_light::{Area, Directional, Environment, Light, LightError, Point, Sky, Spectrum, Spot, Up, rec709};
+use lesk_math::{Color, Vec3, vec3};
+use lesk_quantities::{Dimension, colorspace};
+
+use Dimension::{Illuminance, Luminance, LuminousFlux, LuminousIntensity};
+
+impl Resolver<'_> {
+    pub(super) fn lights(&mut self) {
+        let d = self.description;
+        for light in &d.lights {
+            if let Some(light) = self.light(light) {
+                self.lights.push(light);
+            }
+        }
+        if let Some(environment) = &d.environment {
+            if let Some(light) = self.environment(environment) {
+                self.lights.push(light);
+            }
+        }
+    }
+
+    fn light(&mut self, d: &LightDescription) -> Option<Light> {
+        let about = if d.name.is_empty() { "light".to_string() } else { format!("light `{}`", d.name) };
+        let accepted = match d.kind {
+            LightKind::Point { .. } | LightKind::Spot { .. } => &[LuminousFlux, LuminousIntensity][..],
+            LightKind::Directional { .. } => &[Illuminance],
+        };
+        let (dimension, value) = self.photometric(&about, &d.emission, accepted)?;
+        let is_flux = dimension == LuminousFlux;
+        let light = match d.kind {
+            LightKind::Point { position } if is_flux => Point::from_flux(narrow(position), value).map(Light::Point),
+            LightKind::Point { position } => Point::new(narrow(position), value).map(Light::Point),
+            LightKind::Spot { position, direction, half_angles } => {
+                let make = if is_flux { Spot::from_flux } else { Spot::new };
+                make(narrow(position), narrow(direction), value, half_angles).map(Light::Spot)
+            }
+            LightKind::Directional { direction } => Directional::new(narrow(direction), value).map(Light::Directional),
+        };
+        let far = match d.kind {
+            LightKind::Point { position } | LightKind::Spot { position, .. } => position,
+            LightKind::Directional { .. } => [0.0; 3],
+        };
+        if !far.iter().all(|x| x.abs() <= 1e12) {
+            let text = format!("{about} is at {far:?}, coordinates up to 1e12 m are accepted");
+            self.problem(Problem::new(d.place, text));
+            return None;
+        }
+        self.check(d.place, &about, light)
+    }
+
+    pub(super) fn area_light(&mut self, part: &Part, d: &AreaLightDescription) -> Option<Area> {
+        let about = super::objects::about(part.name);
+        let (dimension, value) = self.photometric(&about, &d.emission, &[LuminousFlux, Luminance])?;
+        let geometry = self.geometry(part.geometry);
+        let light = if dimension == LuminousFlux {
+            Area::from_flux(geometry, &part.transform, value, d.two_sided)
+        } else {
+            Area::new(geometry, &part.transform, value, d.two_sided)
+        };
+        self.check(d.emission.place, &about, light)
+    }
+
+    fn environment(&mut self, d: &EnvironmentDescription) -> Option<Light> {
+        match &d.kind {
+            EnvironmentKind::Sky { emission, dome } => {
+                let (dimension, value) = self.photometric("environment", emission, &[Luminance, Illuminance])?;
+                // E = π L of a half space
+                let luminance = if dimension == Illuminance { value * std::f32::consts::FRAC_1_PI } else { value };
+                let up = match d.up {
+                    Up::Z => vec3(0.0, 0.0, 1.0),
+                    Up::Y => vec3(0.0, 1.0, 0.0),
+                };
+                let sky = if *dome { Sky::dome(luminance, up) } else { Sky::new(luminance) };
+                self.check(d.place, "environment", sky).map(Light::Sky)
+            }
+            EnvironmentKind::Map { image, rotation, strength } => {
+                let map = self.map(image, *rotation, *strength, d.up, d.place)?;
+                Some(Light::Environment(map))
+            }
+        }
+    }
+
+    fn map(
+        &mut self,
+        picture: &Picture,
+        rotation: f64,
+        strength: MapStrength,
+        up: Up,
+        place: Place,
+    ) -> Option<Environment> {
+        let image = self.files.image(picture);
+        let image = self.check(place, "environment", image)?;
+        let make = || -> Result<Environment, LightError> {
+            let map = |scale| Environment::new((*image).clone(), Color::splat(scale), up, rotation);
+            match strength {
+                MapStrength::Scale(scale) => map(scale as f32),
+                MapStrength::Illuminance(lux) => map(1.0)?.with_illuminance(lux),
+                MapStrength::Luminance(luminance) => map(1.0)?.with_luminance(luminance),
+            }
+        };
+        let made = make();
+        let map = self.check(place, "environment", made)?;
+        if map.repaired() > 0 {
+            let count = map.repaired();
+            self.note(format!("environment: {count} numbers of the map are negative or not finite and count as 0"));
+        }
+        Some(map)
+    }
+
+    /// The photometric dimension of an emission and its value: the colour whose luminance is the amount.
+    pub(super) fn photometric(
+        &mut self,
+        about: &str,
+        d: &Emission,
+        accepted: &[Dimension],
+    ) -> Option<(Dimension, Color<f32>)> {
+        let given = d.amount.dimension();
+        let dimension = given.photometric();
+        if !accepted.contains(&dimension) {
+            let expected = d.amount.expect(accepted).map(|_| ());
+            self.check(d.place, about, expected)?;
+            return None;
+        }
+        let mut amount = d.amount.si();
+        if given.is_radiometric() {
+            let LightColor::Spectrum(spectrum) = d.color else {
+                let text = format!("{about}: `{}` counts watts, which need a named spectrum", d.amount);
+                let hint = format!("add `spectrum`: {}", Spectrum::ACCEPTED);
+                self.problem(Problem::new(d.place, text).hint(hint));
+                return None;
+            };
+            let watts = d.amount;
+            amount *= spectrum.efficacy();
+            let unit = dimension.si_symbol();
+            self.note(format!("{about}: {watts} are {amount:.6} {unit} at {}", spectrum.conversion()));
+            self.spectra.insert(spectrum.to_string());
+        }
+        let rgb = self.unit_color(about, d)?;
+        let value = rgb.map(|c| (c * amount) as f32);
+        Some((dimension, rec709(value)))
+    }
+
+    /// The colour of an emission, scaled to luminance 1.
+    fn unit_color(&mut self, about: &str, d: &Emission) -> Option<[f64; 3]> {
+        match d.color {
+            LightColor::White => Some([1.0; 3]),
+            LightColor::Spectrum(spectrum) => Some(spectrum.rgb()),
+            LightColor::Rgb(rgb) => {
+                let luminance = colorspace::luminance(rgb);
+                let legal = rgb.iter().all(|c| (0.0..=1e6).contains(c)) && luminance > 0.0;
+                if !legal {
+                    let text = format!("{about}: `color` is {rgb:?}, three numbers from 0 are accepted, not all 0");
+                    self.problem(Problem::new(d.place, text));
+                    return None;
+                }
+                Some(rgb.map(|c| c / luminance))
+            }
+        }
+    }
+}
+
+/// The nearest f32 vector.
+pub(super) fn narrow(v: [f64; 3]) -> Vec3<f32> {
+    Vec3::from(v.map(|x| x as f32))
+}

@@ -1,0 +1,304 @@
+//! Objects: shapes, files and groups become instances.
+
+use super::Resolver;
+use crate::description::{GroupDescription, Normals, ObjectDescription, Shape};
+use crate::error::{Place, Problem, list, name_hint};
+use crate::scene::Object;
+use lesk_geometry::{Geometry, Mesh, Transform, teapot};
+use lesk_light::{Area, Light};
+use std::collections::HashMap;
+use std::sync::Arc;
+
+/// Most instances of a scene, and most groups in groups.
+const MAX_INSTANCES: usize = 1 << 22;
+const MAX_NESTING: usize = 64;
+/// Largest subdivision of the teapot: 32 patches of 512 x 512 cells are 16.8 million triangles.
+pub(crate) const MAX_TEAPOT_LEVEL: u32 = 512;
+
+/// The geometries that are there already, and their numbers.
+#[derive(Default)]
+pub(super) struct Geometries {
+    list: Vec<Geometry>,
+    /// Sphere, disk, rectangle, cube, closed and open cylinder.
+    simple: [Option<u32>; 6],
+    teapots: HashMap<u32, u32>,
+    /// By the address of the mesh, which `kept` holds.
+    meshes: HashMap<(usize, u8), u32>,
+    kept: Vec<Arc<Mesh>>,
+}
+
+/// Where an object is placed from.
+struct Context<'a> {
+    parent: Transform,
+    groups: &'a HashMap<&'a str, &'a GroupDescription>,
+    depth: usize,
+    /// Some group contains itself: none is placed.
+    cyclic: bool,
+}
+
+/// What stands at a place, before it is an instance.
+pub(super) struct Part<'a> {
+    pub name: &'a str,
+    pub geometry: u32,
+    pub transform: Transform,
+    pub material: Option<u32>,
+    pub place: Place,
+}
+
+impl Resolver<'_> {
+    pub(super) fn objects(&mut self) {
+        let d = self.description;
+        let mut groups: HashMap<&str, &GroupDescription> = HashMap::new();
+        for group in &d.groups {
+            if groups.insert(&group.name, group).is_some() {
+                self.problem(Problem::new(group.place, format!("group `{}` is there twice", group.name)));
+            }
+        }
+        let cyclic = self.has_cycle(&groups);
+        let context = Context { parent: Transform::IDENTITY, groups: &groups, depth: 0, cyclic };
+        for object in &d.objects {
+            self.object(object, &context);
+        }
+    }
+
+    /// Whether some group contains itself; says which.
+    fn has_cycle(&mut self, groups: &HashMap<&str, &GroupDescription>) -> bool {
+        // 1: on the way, 2: done; an explicit stack, since groups may be nested deeply
+        let mut state: HashMap<&str, u8> = HashMap::new();
+        let mut found = false;
+        for start in &self.description.groups {
+            let mut stack = vec![(start.name.as_str(), 0)];
+            while let Some((name, next)) = stack.pop() {
+                let Some(group) = groups.get(name) else { continue };
+                if next == 0 && state.insert(name, 1) == Some(2) {
+                    state.insert(name, 2);
+                    continue;
+                }
+                let Some(child) = group.objects.get(next) else {
+                    state.insert(name, 2);
+                    continue;
+                };
+                stack.push((name, next + 1));
+                let Shape::Group(inner) = &child.shape else { continue };
+                if state.get(inner.as_str()) == Some(&1) {
+                    let way: Vec<&str> = stack.iter().map(|(n, _)| *n).skip_while(|n| n != inner).collect();
+                    let text = format!("group `{inner}` contains itself: {} -> {inner}", way.join(" -> "));
+                    self.problem(Problem::new(child.place, text));
+                    found = true;
+                } else if !state.contains_key(inner.as_str()) {
+                    stack.push((inner, 0));
+                }
+            }
+        }
+        found
+    }
+
+    fn object(&mut self, d: &ObjectDescription, context: &Context) {
+        let transform = context.parent * d.transform;
+        if let Shape::Group(name) = &d.shape {
+            return self.group(d, name, transform, context);
+        }
+        let material = match &d.material {
+            Some(name) => match self.material_number(name, d.place) {
+                Some(number) => Some(number),
+                None => return,
+            },
+            None => None,
+        };
+        if let Shape::File { file, normals } = &d.shape {
+            return self.file(d, file, *normals, transform, material);
+        }
+        if d.material.is_none() && d.light.is_none() {
+            let about = about(&d.name);
+            self.problem(
+                Problem::new(d.place, format!("{about} has no material")).hint("add `material`, or `light` for a lamp"),
+            );
+            return;
+        }
+        let Some((geometry, size)) = self.shape(d) else { return };
+        let part = Part { name: &d.name, geometry, transform: transform * size, material, place: d.place };
+        self.instance(part, d);
+    }
+
+    fn group(&mut self, d: &ObjectDescription, name: &str, transform: Transform, context: &Context) {
+        let Some(group) = context.groups.get(name) else {
+            let known: Vec<&str> = self.description.groups.iter().map(|g| g.name.as_str()).collect();
+            self.problem(
+                Problem::new(d.place, format!("unknown group `{name}`, there are {}", list(&known)))
+                    .hint(name_hint(name, &known)),
+            );
+            return;
+        };
+        if d.material.is_some() || d.light.is_some() {
+            let text = format!("instance of group `{name}` has a material or light of its own");
+            self.problem(Problem::new(d.place, text).hint("give them to the objects of the group"));
+        }
+        if context.depth >= MAX_NESTING {
+            let text = format!("group `{name}` is nested more than {MAX_NESTING} deep");
+            self.problem(Problem::new(d.place, text));
+            return;
+        }
+        if context.cyclic {
+            return;
+        }
+        let inner = Context { parent: transform, groups: context.groups, depth: context.depth + 1, cyclic: false };
+        for object in &group.objects {
+            if self.is_full() {
+                return;
+            }
+            self.object(object, &inner);
+        }
+    }
+
+    /// Whether placing more is of no use: there are too many instances, or too many problems.
+    fn is_full(&self) -> bool {
+        self.objects.len() >= MAX_INSTANCES || self.problems.len() >= super::MAX_PROBLEMS
+    }
+
+    fn material_number(&mut self, name: &str, place: Place) -> Option<u32> {
+        if let Some(number) = self.material_names.get(name) {
+            return *number;
+        }
+        let known: Vec<&str> = self.description.materials.iter().map(|m| m.name.as_str()).collect();
+        let text = match known.is_empty() {
+            true => format!("unknown material `{name}`, the scene has none"),
+            false => format!("unknown material `{name}`, there are {}", list(&known)),
+        };
+        self.problem(Problem::new(place, text).hint(name_hint(name, &known)));
+        None
+    }
+
+    /// Adds an instance, and the light that it emits.
+    pub(super) fn instance(&mut self, part: Part, d: &ObjectDescription) {
+        let light = match &d.light {
+            Some(light) => match self.area_light(&part, light) {
+                Some(light) => Some(light),
+                None => return,
+            },
+            None => None,
+        };
+        self.instance_with(part, light);
+    }
+
+    pub(super) fn instance_with(&mut self, part: Part, light: Option<Area>) {
+        if self.objects.len() >= MAX_INSTANCES {
+            let text = format!("scene has more than {MAX_INSTANCES} instances");
+            return self.problem(Problem::new(part.place, text));
+        }
+        let finite = part.transform.rows().iter().flatten().all(|v| v.is_finite());
+        let result = if finite {
+            self.world.instance(part.geometry, part.transform).map_err(|e| e.to_string())
+        } else {
+            Err("its transform is not finite".to_string())
+        };
+        if self.check(part.place, &about(part.name), result).is_none() {
+            return;
+        }
+        let light = light.map(|area| {
+            self.lights.push(Light::Area(area));
+            self.lights.len() as u32 - 1
+        });
+        self.objects.push(Object { name: part.name.to_string(), material: part.material, light });
+    }
+
+    /// The geometry of a shape, and the transform that gives it its size.
+    fn shape(&mut self, d: &ObjectDescription) -> Option<(u32, Transform)> {
+        let sizes = match &d.shape {
+            Shape::Sphere { radius } => [*radius; 3],
+            Shape::Disk { radius } => [*radius, *radius, 1.0],
+            Shape::Rectangle { size } => [0.5 * size[0], 0.5 * size[1], 1.0],
+            Shape::Cube { size } => size.map(|s| 0.5 * s),
+            Shape::Cylinder { radius, height, .. } => [*radius, *radius, *height],
+            _ => [1.0; 3],
+        };
+        if let Some(bad) = sizes.iter().find(|s| !(1e-9..=1e12).contains(*s)) {
+            let text = format!("{} has the extent {bad} m, 1e-9 to 1e12 m is accepted", about(&d.name));
+            self.problem(Problem::new(d.place, text));
+            return None;
+        }
+        let size = Transform::scale(sizes[0], sizes[1], sizes[2]);
+        let size = self.check(d.place, &about(&d.name), size)?;
+        let number = match &d.shape {
+            Shape::Sphere { .. } => self.simple(0, || Geometry::Sphere),
+            Shape::Disk { .. } => self.simple(1, || Geometry::Disk),
+            Shape::Rectangle { .. } => self.simple(2, || Geometry::Rectangle),
+            Shape::Cube { .. } => self.simple(3, Geometry::cube),
+            Shape::Cylinder { capped: true, .. } => self.simple(4, || Geometry::Cylinder { capped: true }),
+            Shape::Cylinder { .. } => self.simple(5, || Geometry::Cylinder { capped: false }),
+            Shape::Teapot { level } => self.teapot(*level, d)?,
+            Shape::Mesh(mesh) => {
+                let mesh = mesh.0.clone();
+                if !self.geometries.meshes.contains_key(&key(&mesh, Normals::File)) {
+                    self.files.hash_mesh(&mesh);
+                }
+                self.mesh(&mesh, Normals::File)
+            }
+            Shape::File { .. } | Shape::Group(_) => return None,
+        };
+        Some((number, size))
+    }
+
+    fn simple(&mut self, slot: usize, make: fn() -> Geometry) -> u32 {
+        if let Some(number) = self.geometries.simple[slot] {
+            return number;
+        }
+        let number = self.add_geometry(make());
+        self.geometries.simple[slot] = Some(number);
+        number
+    }
+
+    fn add_geometry(&mut self, geometry: Geometry) -> u32 {
+        self.geometries.list.push(geometry.clone());
+        self.world.geometry(geometry)
+    }
+
+    fn teapot(&mut self, level: u32, d: &ObjectDescription) -> Option<u32> {
+        if !(1..=MAX_TEAPOT_LEVEL).contains(&level) {
+            let text = format!("`level` is {level}, 1 to {MAX_TEAPOT_LEVEL} is accepted");
+            self.problem(Problem::new(d.place, text));
+            return None;
+        }
+        if let Some(&number) = self.geometries.teapots.get(&level) {
+            return Some(number);
+        }
+        let number = self.add_geometry(Geometry::Mesh(Arc::new(teapot::mesh(level))));
+        self.geometries.teapots.insert(level, number);
+        Some(number)
+    }
+
+    /// The geometry of a mesh; the same mesh is one geometry.
+    pub(super) fn mesh(&mut self, mesh: &Arc<Mesh>, normals: Normals) -> u32 {
+        if let Some(&number) = self.geometries.meshes.get(&key(mesh, normals)) {
+            return number;
+        }
+        let shown = match normals {
+            Normals::File => mesh.clone(),
+            _ => {
+                let mut copy = (**mesh).clone();
+                if normals == Normals::Smooth {
+                    copy.smooth()
+                } else {
+                    copy.flatten()
+                }
+                Arc::new(copy)
+            }
+        };
+        let number = self.add_geometry(Geometry::Mesh(shown));
+        self.geometries.meshes.insert(key(mesh, normals), number);
+        self.geometries.kept.push(mesh.clone());
+        number
+    }
+
+    pub(super) fn geometry(&self, number: u32) -> &Geometry {
+        &self.geometries.list[number as usize]
+    }
+}
+
+fn key(mesh: &Arc<Mesh>, normals: Normals) -> (usize, u8) {
+    (Arc::as_ptr(mesh) as usize, normals as u8)
+}
+
+/// What an object is called in a message.
+pub(super) fn about(name: &str) -> String {
+    if name.is_empty() { "object".to_string() } else { format!("object `{name}`") }
+}
