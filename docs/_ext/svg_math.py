@@ -11,6 +11,7 @@ DISPLAY_SIZE = 19.2
 
 # a path per glyph: identifiers of shared glyphs would clash between formulas of a page
 ziamath.config.svg2 = False
+ziamath.config.precision = 2
 
 
 def draw(latex, *, display):

@@ -9,23 +9,33 @@ use std::process::Command;
 /// A virtual environment in the root of the project.
 pub struct Environment {
     folder: &'static str,
+    tools: tools::Use,
     /// The extras of `pyproject.toml` that it holds, besides what the package itself needs.
     extras: &'static [&'static str],
+    /// An extra that does not exist for every machine, and what is skipped without it.
+    optional: Option<(&'static str, &'static str)>,
 }
 
 /// What the demo and the tests use.
-pub const MAIN: Environment = Environment { folder: ".venv", extras: &["dev", "docs"] };
+pub const MAIN: Environment =
+    Environment { folder: ".venv", tools: tools::Use::Main, extras: &["dev", "docs"], optional: None };
 
 /// What the comparisons with other renderers use.
-pub const BENCH: Environment = Environment { folder: ".venv-bench", extras: &["bench"] };
+pub const BENCH: Environment = Environment {
+    folder: ".venv-bench",
+    tools: tools::Use::Bench,
+    extras: &["bench"],
+    optional: Some(("cycles", "comparing with Cycles")),
+};
 
-/// Prints the requirements of the package and of the extras named, one per line.
+/// Prints the requirements of the package (not with `--only`) and of the extras named, one per line.
 const REQUIREMENTS: &str = "
 import sys, tomllib
 with open('pyproject.toml', 'rb') as file:
     project = tomllib.load(file)['project']
 optional = project['optional-dependencies']
-print(*project['dependencies'], *(r for extra in sys.argv[1:] for r in optional[extra]), sep='\\n')
+own = [] if '--only' in sys.argv else project['dependencies']
+print(*own, *(r for extra in sys.argv[1:] if extra in optional for r in optional[extra]), sep='\\n')
 ";
 
 /// What the wheel is made from.
@@ -34,21 +44,28 @@ const SOURCES: [&str; 6] = ["pyproject.toml", "Cargo.toml", "Cargo.lock", "crate
 impl Environment {
     /// Creates the environment where it is missing, and installs what `pyproject.toml` asks for.
     pub fn install(&self) -> Result<(), Error> {
-        tools::ensure()?;
+        tools::ensure(self.tools)?;
         let system = system_python()?;
         let version = capture(command(&system).arg("--version"))?;
-        let stamp = Stamp::new(
-            self.path().join("installed"),
-            &[root().join("pyproject.toml")],
-            &[&version, &self.extras.join(",")],
-        )?;
+        let requirements = capture(command(&system).args(["-c", REQUIREMENTS]).args(self.extras))?;
+        let stamp = Stamp::new(self.path().join("installed"), &[], &[&version, &requirements])?;
         if stamp.is_fresh() && process::succeeds(self.python().arg("--version")) {
             return Ok(());
         }
+        println!("installing Python packages in {}", self.folder);
         run(command(&system).args(["-m", "venv", "--clear"]).arg(self.path()))?;
-        let requirements = capture(self.python().args(["-c", REQUIREMENTS]).args(self.extras))?;
         run(self.pip().arg("install").args(requirements.lines()))?;
+        self.install_optional()?;
         stamp.set()
+    }
+
+    fn install_optional(&self) -> Result<(), Error> {
+        let Some((extra, purpose)) = self.optional else { return Ok(()) };
+        let requirements = capture(self.python().args(["-c", REQUIREMENTS, "--only", extra]))?;
+        if run(self.pip().arg("install").args(requirements.lines())).is_err() {
+            eprintln!("skipped: {purpose} ({} cannot be installed here)", requirements.trim());
+        }
+        Ok(())
     }
 
     /// Builds the wheel and installs it; nothing happens when no source has changed.

@@ -6,7 +6,7 @@ use crate::steps::{Area, Step};
 use crate::{codegen, deps, steps, test_binaries, tools};
 
 const STEPS: [Step; 17] = [
-    Step { name: "tools", area: Area::Build, run: tools::ensure },
+    Step { name: "tools", area: Area::Build, run: || tools::ensure(tools::Use::Main) },
     Step { name: "fmt", area: Area::Rust, run: format },
     Step { name: "deps", area: Area::Rust, run: || deps::run(&[]) },
     Step { name: "build", area: Area::Build, run: test_binaries::build },

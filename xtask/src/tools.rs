@@ -14,8 +14,18 @@ enum Probe {
     PythonModule(&'static str),
 }
 
+/// Which tasks use a tool.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub enum Use {
+    /// The demo and the tests.
+    Main,
+    /// The comparisons with other renderers.
+    Bench,
+}
+
 /// A system tool.
 struct Tool {
+    used_by: Use,
     probe: Probe,
     /// Package of Debian that brings it.
     package: &'static str,
@@ -24,27 +34,29 @@ struct Tool {
 }
 
 /// Every system tool that a task uses, besides Rust and Python.
-const TOOLS: [Tool; 7] = [
-    Tool { probe: Probe::PythonModule("ensurepip"), package: "python3-venv", purpose: "the virtual environment" },
-    Tool {
-        probe: Probe::Program("glslangValidator"),
-        package: "glslang-tools",
-        purpose: "validating GLSL, GLSL ES and HLSL",
-    },
-    Tool { probe: Probe::Program("spirv-val"), package: "spirv-tools", purpose: "validating and counting SPIR-V" },
-    Tool { probe: Probe::Library("libEGL.so.1"), package: "libegl1", purpose: "running GLSL" },
-    Tool { probe: Probe::Library("libGL.so.1"), package: "libgl1", purpose: "running GLSL" },
-    Tool {
-        probe: Probe::Library("libEGL_mesa.so.0"),
-        package: "libegl-mesa0",
-        purpose: "running GLSL without a graphics card",
-    },
-    Tool {
-        probe: Probe::Library("dri/swrast_dri.so"),
-        package: "libgl1-mesa-dri",
-        purpose: "running GLSL without a graphics card",
-    },
+const TOOLS: [Tool; 13] = [
+    main(Probe::PythonModule("ensurepip"), "python3-venv", "the virtual environment"),
+    main(Probe::Program("glslangValidator"), "glslang-tools", "validating GLSL, GLSL ES and HLSL"),
+    main(Probe::Program("spirv-val"), "spirv-tools", "validating and counting SPIR-V"),
+    main(Probe::Library("libEGL.so.1"), "libegl1", "running GLSL"),
+    main(Probe::Library("libGL.so.1"), "libgl1", "running GLSL"),
+    main(Probe::Library("libEGL_mesa.so.0"), "libegl-mesa0", "running GLSL without a graphics card"),
+    main(Probe::Library("dri/swrast_dri.so"), "libgl1-mesa-dri", "running GLSL without a graphics card"),
+    bench(Probe::Program("g++"), "g++", "comparing with Embree"),
+    bench(Probe::Library("libembree3.so"), "libembree-dev", "comparing with Embree"),
+    bench(Probe::Library("libXrender.so.1"), "libxrender1", "comparing with Cycles"),
+    bench(Probe::Library("libXi.so.6"), "libxi6", "comparing with Cycles"),
+    bench(Probe::Library("libSM.so.6"), "libsm6", "comparing with Cycles"),
+    bench(Probe::Library("libxkbcommon.so.0"), "libxkbcommon0", "comparing with Cycles"),
 ];
+
+const fn main(probe: Probe, package: &'static str, purpose: &'static str) -> Tool {
+    Tool { used_by: Use::Main, probe, package, purpose }
+}
+
+const fn bench(probe: Probe, package: &'static str, purpose: &'static str) -> Tool {
+    Tool { used_by: Use::Bench, probe, package, purpose }
+}
 
 const LIBRARY_FOLDERS: [&str; 7] = [
     "/usr/lib/x86_64-linux-gnu",
@@ -56,12 +68,13 @@ const LIBRARY_FOLDERS: [&str; 7] = [
     "/lib",
 ];
 
-/// Sees to it that the system tools are there.
+/// Sees to it that the system tools of the demo and the tests are there, and those of `used_by`.
 ///
 /// As root on Debian the missing ones are installed. Elsewhere the command is printed, and one line for each
 /// thing that cannot be done without them; with `CI` set a missing tool is an error.
-pub fn ensure() -> Result<(), Error> {
-    let mut missing: Vec<&Tool> = TOOLS.iter().filter(|tool| !tool.is_there()).collect();
+pub fn ensure(used_by: Use) -> Result<(), Error> {
+    let used = |tool: &&Tool| tool.used_by == Use::Main || tool.used_by == used_by;
+    let mut missing: Vec<&Tool> = TOOLS.iter().filter(used).filter(|tool| !tool.is_there()).collect();
     if missing.is_empty() {
         return Ok(());
     }
