@@ -9,6 +9,7 @@
 //! | [`Surface`] | position, normals, texture coordinates and tangent; where the next ray starts |
 //! | [`AreaSampler`] | points on a placed geometry by area or by solid angle |
 //! | [`import`] | OBJ, PLY, glTF into plain data |
+//! | [`teapot`] | the Utah teapot from its Bézier patches |
 //!
 //! ```
 //! use lesk_geometry::{Geometry, Ray, Transform, WorldBuilder};
@@ -46,6 +47,7 @@ mod ray;
 mod robust;
 mod shapes;
 mod surface;
+mod teapot;
 mod transform;
 
 pub use bounds::Bounds;
@@ -55,4 +57,5 @@ pub use mesh::{MAX_COORDINATE, Mesh, MeshData, Repairs};
 pub use ray::{Hit, Ray};
 pub use shapes::{AreaSampler, Geometry, SurfaceSample, cube, icosphere, rectangle, uv_sphere};
 pub use surface::Surface;
+pub use teapot::teapot;
 pub use transform::{Rows, Transform};

@@ -47,7 +47,7 @@ impl Transform {
         }
         let inverse = invert(&rows);
         let condition = norm(&rows) * norm(&inverse);
-        if !(condition <= 1e10) || inverse.iter().flatten().any(|x| !x.is_finite()) {
+        if condition.is_nan() || condition > 1e10 || inverse.iter().flatten().any(|x| !x.is_finite()) {
             return Err(Error::new(format!(
                 "transform cannot be inverted: its condition number is {condition:e}, at most 1e10 is accepted"
             ))
