@@ -72,8 +72,8 @@ impl FromStr for Channel {
 /// of formats whose v runs downwards (glTF) pass 1 - v.
 #[derive(Clone, Debug)]
 pub struct Texture {
-    width: i64,
-    height: i64,
+    width: i32,
+    height: i32,
     channels: usize,
     data: Vec<f32>,
     wrap: [Wrap; 2],
@@ -85,7 +85,7 @@ impl Texture {
     /// A texture of an image. Colours that are sRGB-encoded are decoded; numbers that are not finite become 0 and are
     /// counted, see [`repaired`](Self::repaired).
     pub fn new(image: Image, role: Role, wrap: [Wrap; 2], interpolation: Interpolation) -> Texture {
-        let (width, height, channels) = (image.width().into(), image.height().into(), image.channels());
+        let (width, height, channels) = (image.width() as i32, image.height() as i32, image.channels());
         let decode = role == Role::Color && image.transfer() == Transfer::Srgb;
         let colors = if channels < 3 { 1 } else { 3 };
         let mut data = image.into_data();
@@ -171,39 +171,59 @@ impl Texture {
 
     /// The interpolated texel; channels that the image does not have are 0.
     #[inline]
-    fn texel(&self, [u, v]: [f32; 2]) -> [f32; 4] {
-        // beyond 1e9 texels an f32 has no place within a texel left; NaN and infinity end here too
-        let place = |t: f32, size: i64| Some(t * size as f32).filter(|p| p.abs() < 1e9).unwrap_or(0.0);
-        // rows run downwards, v upwards
-        let (x, y) = (place(u, self.width), place(1.0 - v, self.height));
-        if self.interpolation == Interpolation::Nearest {
-            return self.at(x.floor() as i64, y.floor() as i64);
+    fn texel(&self, uv: [f32; 2]) -> [f32; 4] {
+        match self.channels {
+            1 => self.interpolated::<1>(uv),
+            2 => self.interpolated::<2>(uv),
+            3 => self.interpolated::<3>(uv),
+            _ => self.interpolated::<4>(uv),
         }
-        let (x, y) = (x - 0.5, y - 0.5);
-        let (x0, y0) = (x.floor(), y.floor());
-        let (tx, ty) = (x - x0, y - y0);
-        let (x0, y0) = (x0 as i64, y0 as i64);
-        let row = |y: i64| {
-            let (a, b) = (self.at(x0, y), self.at(x0 + 1, y));
-            [0, 1, 2, 3].map(|c| a[c] * (1.0 - tx) + b[c] * tx)
-        };
-        let (a, b) = (row(y0), row(y0 + 1));
-        [0, 1, 2, 3].map(|c| a[c] * (1.0 - ty) + b[c] * ty)
     }
 
     #[inline]
-    fn at(&self, x: i64, y: i64) -> [f32; 4] {
-        let (x, y) = (wrapped(self.wrap[0], x, self.width), wrapped(self.wrap[1], y, self.height));
-        let at = (y * self.width + x) as usize * self.channels;
-        let mut texel = [0.0; 4];
-        texel[..self.channels].copy_from_slice(&self.data[at..at + self.channels]);
-        texel
+    fn interpolated<const N: usize>(&self, [u, v]: [f32; 2]) -> [f32; 4] {
+        // beyond 1e9 texels an f32 has no place within a texel left; NaN and infinity end here too
+        let place = |t: f32, size: i32| Some(t * size as f32).filter(|p| p.abs() < 1e9).unwrap_or(0.0);
+        // rows run downwards, v upwards
+        let (x, y) = (place(u, self.width), place(1.0 - v, self.height));
+        let mut out = [0.0; 4];
+        if self.interpolation == Interpolation::Nearest {
+            let at = self.row(y.floor() as i32) + self.column(x.floor() as i32);
+            out[..N].copy_from_slice(&self.data[at * N..][..N]);
+            return out;
+        }
+        let (x, y) = (x - 0.5, y - 0.5);
+        let (tx, ty) = (x - x.floor(), y - y.floor());
+        let (x, y) = (x.floor() as i32, y.floor() as i32);
+        let columns = [self.column(x), self.column(x + 1)];
+        let rows = [self.row(y), self.row(y + 1)];
+        let texel = |row: usize, column: usize| &self.data[(row + column) * N..][..N];
+        let [[a, b], [c, d]] = rows.map(|row| columns.map(|column| texel(row, column)));
+        for i in 0..N {
+            let (top, bottom) = (a[i] * (1.0 - tx) + b[i] * tx, c[i] * (1.0 - tx) + d[i] * tx);
+            out[i] = top * (1.0 - ty) + bottom * ty;
+        }
+        out
+    }
+
+    #[inline]
+    fn column(&self, x: i32) -> usize {
+        wrapped(self.wrap[0], x, self.width) as usize
+    }
+
+    /// The first texel of a row.
+    #[inline]
+    fn row(&self, y: i32) -> usize {
+        wrapped(self.wrap[1], y, self.height) as usize * self.width as usize
     }
 }
 
 /// The texel that stands for place `i` of a row of `size`.
 #[inline]
-fn wrapped(wrap: Wrap, i: i64, size: i64) -> i64 {
+fn wrapped(wrap: Wrap, i: i32, size: i32) -> i32 {
+    if (0..size).contains(&i) {
+        return i;
+    }
     match wrap {
         Wrap::Repeat => i.rem_euclid(size),
         Wrap::Clamp => i.clamp(0, size - 1),

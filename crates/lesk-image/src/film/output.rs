@@ -3,6 +3,7 @@
 use super::{ALBEDO, COUNT, DEPTH, Film, HITS, MATERIAL, NORMAL, OBJECT, SQUARES, SUM};
 use crate::image::{Image, Transfer};
 use crate::{ImageError, Planes, Samples};
+use rayon::prelude::*;
 
 impl Film {
     /// Samples that a pixel holds.
@@ -104,7 +105,7 @@ impl Film {
         &self,
         planes: &mut Planes,
         layer: &str,
-        color: impl Fn(&[f64]) -> [f64; 3],
+        color: impl Fn(&[f64]) -> [f64; 3] + Sync,
     ) -> Result<(), ImageError> {
         for (c, channel) in ["R", "G", "B"].into_iter().enumerate() {
             let name = if layer.is_empty() { channel.to_string() } else { format!("{layer}.{channel}") };
@@ -113,8 +114,14 @@ impl Film {
         Ok(())
     }
 
-    fn push_float(&self, planes: &mut Planes, name: &str, value: impl Fn(&[f64]) -> f64) -> Result<(), ImageError> {
-        planes.push(name, Samples::Float(self.records().map(|r| value(r) as f32).collect()))
+    fn push_float(
+        &self,
+        planes: &mut Planes,
+        name: &str,
+        value: impl Fn(&[f64]) -> f64 + Sync,
+    ) -> Result<(), ImageError> {
+        let records = self.data.par_chunks_exact(self.layout.stride());
+        planes.push(name, Samples::Float(records.map(|r| value(r) as f32).collect()))
     }
 
     fn record(&self, x: u32, y: u32) -> &[f64] {
