@@ -16,8 +16,7 @@ pub struct BlinnPhong<R> {
     /// Reflectance of the highlight at normal incidence, about.
     #[param(default = 0.4, range = 0.0..=1.0)]
     pub specular: Color<R>,
-    /// Exponent n; about four times that of Phong's model for the same look. Beyond 10000 the cosine of `f32`
-    /// directions does not resolve the lobe.
+    /// Exponent n; about four times that of Phong's model for the same look.
     #[param(default = 80.0, range = 0.0..=1e4, slider = 1.0..=1000.0, scale = "log")]
     pub shininess: R,
 }
@@ -71,9 +70,9 @@ impl<R: Real> BlinnPhong<R> {
 impl<R: Real> Bsdf<R> for BlinnPhong<R> {
     #[inline(always)]
     fn eval(&self, wi: Vec3<R>, wo: Vec3<R>) -> Color<R> {
-        let h = (wi + wo).normalize().named("h");
+        let h = (wi + wo).named("h");
         let norm = (self.shininess + R::lit(8.0)) * R::lit(0.125 * core::f64::consts::FRAC_1_PI);
-        let highlight = norm * lobe::cos_power(h.z, self.shininess);
+        let highlight = norm * lobe::polar_cos_power(h, self.shininess);
         self.diffuse * R::FRAC_1_PI + self.specular * highlight
     }
 
@@ -87,9 +86,8 @@ impl<R: Real> Bsdf<R> for BlinnPhong<R> {
     #[inline(always)]
     fn pdf(&self, wi: Vec3<R>, wo: Vec3<R>) -> R {
         let (h, cos_d) = facet::half(wi, wo);
-        let cos_h = h.z / (R::TWO * cos_d);
         let facets = (self.shininess + R::ONE) * R::lit(0.5 * core::f64::consts::FRAC_1_PI);
-        let highlight = facets * lobe::cos_power(cos_h, self.shininess) / (R::lit(4.0) * cos_d);
-        self.diffuse_share().lerp(highlight, wi.z * R::FRAC_1_PI)
+        let highlight = facets * lobe::polar_cos_power(h, self.shininess) / (R::lit(4.0) * cos_d);
+        lobe::mixture(self.diffuse_share(), wi.z * R::FRAC_1_PI, highlight)
     }
 }

@@ -113,16 +113,16 @@ impl<R: Real> Disney2012<R> {
         Color::lerp(self.metallic, dielectric, self.base_color).named("f0")
     }
 
-    /// The probabilities of drawing from the diffuse and from the specular part, else from the clearcoat: estimates of
-    /// what they reflect towards `wo`.
+    /// The probabilities of drawing from the diffuse part, the specular part and the clearcoat: estimates of what they
+    /// reflect towards `wo`.
     #[inline(always)]
-    fn shares(&self, wo: Vec3<R>) -> [R; 2] {
+    fn shares(&self, wo: Vec3<R>) -> [R; 3] {
         let m = fresnel::schlick_weight(wo.z);
         let diffuse = self.metallic.one_minus() * self.sheen.fma(R::lit(0.1), self.base_color.luminance());
         let specular = fresnel::schlick(self.f0(), wo.z).luminance().max(R::lit(0.02));
         let clearcoat = R::lit(0.25) * self.clearcoat * m.lerp(R::lit(0.04), R::ONE);
         let scale = (diffuse + specular + clearcoat).recip();
-        [diffuse * scale, specular * scale]
+        [diffuse * scale, specular * scale, clearcoat * scale]
     }
 }
 
@@ -154,7 +154,7 @@ impl<R: Real> Bsdf<R> for Disney2012<R> {
         let matte = lobe::sample_cosine([u[0], u[1]]);
         let specular = wo.reflect(ndf::sample_ggx_visible(wo, alpha_x, alpha_y, [u[0], u[1]]));
         let clearcoat = wo.reflect(ndf::sample_gtr1(self.clearcoat_alpha(), [u[0], u[1]]));
-        let [to_matte, to_specular] = self.shares(wo);
+        let [to_matte, to_specular, _] = self.shares(wo);
         let glossy = Vec3::select(u[2].lt(to_matte + to_specular), specular, clearcoat);
         Vec3::select(u[2].lt(to_matte), matte, glossy)
     }
@@ -165,8 +165,7 @@ impl<R: Real> Bsdf<R> for Disney2012<R> {
         let h = wi + wo;
         let specular = R::HALF * masking::smith_ggx_half(wo, alpha_x, alpha_y) * ndf::ggx(h, alpha_x, alpha_y);
         let clearcoat = facet::reflected_pdf(ndf::gtr1(h, self.clearcoat_alpha()), h);
-        let [to_matte, to_specular] = self.shares(wo);
-        let rest = (to_matte + to_specular).one_minus().max(R::ZERO);
-        to_matte * wi.z * R::FRAC_1_PI + to_specular * specular + rest * clearcoat
+        let [to_matte, to_specular, to_clearcoat] = self.shares(wo);
+        to_matte * wi.z * R::FRAC_1_PI + to_specular * specular + to_clearcoat * clearcoat
     }
 }

@@ -13,10 +13,10 @@ use crate::prelude::*;
 #[derive(Params)]
 pub struct GgxConductorSeparable<R> {
     /// Real part of the refractive index.
-    #[param(default = [0.15, 0.42, 1.38], range = 0.01..=10.0, slider = 0.05..=4.0)]
+    #[param(default = [0.16, 0.42, 1.38], range = 0.01..=10.0, slider = 0.05..=4.0)]
     pub eta: Color<R>,
     /// Imaginary part of the refractive index: absorption.
-    #[param(default = [3.6, 2.46, 1.92], range = 0.0..=20.0, slider = 0.0..=8.0)]
+    #[param(default = [3.6, 2.47, 1.92], range = 0.0..=20.0, slider = 0.0..=8.0)]
     pub k: Color<R>,
     /// Width of the facet slopes along the tangent; 0.1 is satin, 0.5 is matte.
     #[param(default = 0.2, range = 1e-3..=1.0, slider = 0.02..=1.0, scale = "log")]

@@ -74,8 +74,10 @@ impl<R: Real> MetallicRoughness<R> {
     /// The probability of drawing from the diffuse part: estimates of what both reflect towards `wo`.
     #[inline(always)]
     fn diffuse_share(&self, wo: Vec3<R>) -> R {
-        let fresnel = fresnel::schlick(self.f0(), wo.z).luminance();
-        lobe::share(fresnel.one_minus() * self.metallic.one_minus() * self.base_color.luminance(), fresnel)
+        let f0 = self.f0();
+        let transmitted = f0.luminance().one_minus() * fresnel::schlick_complement(wo.z);
+        let diffuse = transmitted * self.metallic.one_minus() * self.base_color.luminance();
+        lobe::share(diffuse, fresnel::schlick(f0, wo.z).luminance())
     }
 }
 
@@ -103,6 +105,6 @@ impl<R: Real> Bsdf<R> for MetallicRoughness<R> {
     fn pdf(&self, wi: Vec3<R>, wo: Vec3<R>) -> R {
         let alpha = self.alpha();
         let specular = R::HALF * masking::smith_ggx_half(wo, alpha, alpha) * ndf::ggx(wi + wo, alpha, alpha);
-        self.diffuse_share(wo).lerp(specular, wi.z * R::FRAC_1_PI)
+        lobe::mixture(self.diffuse_share(wo), wi.z * R::FRAC_1_PI, specular)
     }
 }

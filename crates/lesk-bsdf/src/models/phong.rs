@@ -81,6 +81,6 @@ impl<R: Real> Bsdf<R> for Phong<R> {
     #[inline(always)]
     fn pdf(&self, wi: Vec3<R>, wo: Vec3<R>) -> R {
         let highlight = lobe::phong_pdf(wi, wo, self.shininess);
-        self.diffuse_share().lerp(highlight, wi.z * R::FRAC_1_PI)
+        lobe::mixture(self.diffuse_share(), wi.z * R::FRAC_1_PI, highlight)
     }
 }

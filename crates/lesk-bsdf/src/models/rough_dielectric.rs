@@ -10,7 +10,7 @@ use crate::prelude::*;
 ///          \frac{\eta_o^2\,(1-F)\,D\,G}{(\eta_i\,\omega_i\cdot h + \eta_o\,\omega_o\cdot h)^2} $$
 ///
 /// Single scattering only: a rough surface loses energy (see the albedo plot). Between equal media there would be no
-/// density, as every facet lets light pass straight on: an index within 0.001 of 1 counts as 1.001.
+/// density, as every facet lets light pass straight on: an index within 1/1024 of 1 counts as 1 + 1/1024.
 #[derive(Params)]
 pub struct RoughDielectric<R> {
     /// Refractive index below the surface divided by the one above.
@@ -59,8 +59,9 @@ impl<R: Real> RoughDielectric<R> {
     /// Index of refraction on the far side of `wo` divided by that on its own.
     #[inline(always)]
     fn far(&self, wo: Vec3<R>) -> R {
-        let matched = (self.ior - R::ONE).abs().lt(R::lit(1e-3));
-        let ior = R::select(matched, R::lit(1.001), self.ior);
+        let least = R::lit(1.0 / 1024.0);
+        let matched = (self.ior - R::ONE).abs().lt(least);
+        let ior = R::select(matched, R::ONE + least, self.ior);
         R::select(wo.z.gt(R::ZERO), ior, ior.recip())
     }
 
@@ -77,7 +78,9 @@ impl<R: Real> RoughDielectric<R> {
         let k = (eta - R::ONE) * (eta + R::ONE);
         let half_recip = R::HALF / s2.sqrt();
         let (i_h, o_h) = ((s2 + k) * half_recip / eta, (s2 - k) * half_recip);
-        let fresnel = fresnel::dielectric(far, o_h.abs()).named("fresnel"); // Eq. 22
+        // near total reflection i_h has more digits than o_h
+        let g2 = R::select(reflects, fresnel::refracted_normal2(far, o_h), (eta * i_h).sqr());
+        let fresnel = fresnel::dielectric_between(far, o_h.abs(), g2).named("fresnel"); // Eq. 22
         Facet {
             d: ndf::ggx(h, self.alpha_x, self.alpha_y).named("d"), // Eq. 33
             share: R::select(reflects, fresnel, fresnel.one_minus()),

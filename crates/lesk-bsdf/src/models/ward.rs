@@ -92,6 +92,6 @@ impl<R: Real> Bsdf<R> for Ward<R> {
         let h = wi + wo;
         // walter2005; the paper's own density lacks the Jacobian of the half vector
         let highlight = facet::reflected_pdf(ndf::beckmann(h, self.alpha_x, self.alpha_y), h);
-        self.diffuse_share().lerp(highlight, wi.z * R::FRAC_1_PI)
+        lobe::mixture(self.diffuse_share(), wi.z * R::FRAC_1_PI, highlight)
     }
 }

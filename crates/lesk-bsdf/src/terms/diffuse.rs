@@ -1,6 +1,6 @@
 //! Diffuse reflection, f in 1/sr for a reflectance of 1.
 
-use super::fresnel::schlick_weight;
+use super::fresnel::schlick_complement;
 use lesk_math::Real;
 
 /// Burley's retro-reflective diffuse lobe (burley2012 section 5.3), with F_D90 = 1/2 + 2 roughness cos^2 theta_d.
@@ -23,5 +23,6 @@ pub fn burley_subsurface<R: Real>(cos_i: R, cos_o: R, cos_d: R, roughness: R) ->
 /// From 1 at normal incidence to `f90` at grazing.
 #[inline(always)]
 fn grazing<R: Real>(cos: R, f90: R) -> R {
-    schlick_weight(cos).lerp(R::ONE, f90)
+    // mix(1, f90, (1 - cos)^5) the other way round: no difference of nearly equal numbers for f90 near 0
+    schlick_complement(cos).lerp(f90, R::ONE)
 }

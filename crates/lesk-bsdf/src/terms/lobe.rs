@@ -22,6 +22,17 @@ pub fn cos_power<R: Real>(cos: R, n: R) -> R {
     R::select(cos.gt(R::ZERO), cos.max(R::lit(TINY)).pow(n), R::ZERO)
 }
 
+/// cos^n of the polar angle of `h` (z > 0, any length): (1 + tan^2)^(-n/2), as the cosine itself has no digits left for
+/// narrow lobes.
+#[inline(always)]
+pub fn polar_cos_power<R: Real>(h: Vec3<R>, n: R) -> R {
+    let tan2 = h.x.fma(h.x, h.y * h.y) / (h.z * h.z);
+    let sec2 = R::ONE + tan2;
+    // ln(1 + tan2): the second term is what rounding took from the sum
+    let ln_sec2 = sec2.ln() + (tan2 - (sec2 - R::ONE)) / sec2;
+    (-R::HALF * n * ln_sec2).exp()
+}
+
 /// A direction with density (n + 1)/(2 pi) cos^n around the mirror image of `wo` (lafortune1994).
 #[inline(always)]
 pub fn sample_phong<R: Real>(wo: Vec3<R>, n: R, u: [R; 2]) -> Vec3<R> {
@@ -33,6 +44,12 @@ pub fn sample_phong<R: Real>(wo: Vec3<R>, n: R, u: [R; 2]) -> Vec3<R> {
 #[inline(always)]
 pub fn phong_pdf<R: Real>(wi: Vec3<R>, wo: Vec3<R>, n: R) -> R {
     (n + R::ONE) * R::lit(0.5 * core::f64::consts::FRAC_1_PI) * cos_power(cos_mirror(wi, wo), n)
+}
+
+/// The density of drawing from a lobe of density `first` with probability `share`, else from one of density `second`.
+#[inline(always)]
+pub fn mixture<R: Real>(share: R, first: R, second: R) -> R {
+    share.fma(first, share.one_minus() * second)
 }
 
 /// The share of `a` in `a + b`, both >= 0; 0 if both are 0.
