@@ -3,10 +3,10 @@
 #![allow(dead_code)] // each test file uses a part of it
 
 use lesk_bsdf::model::Domain;
-use lesk_bsdf::params::{Kind, ParamSpec, defaults, offset_of};
+use lesk_bsdf::params::{ParamSpec, defaults, offset_of};
 use lesk_bsdf::scatter::Methods;
 use lesk_bsdf::{Scatter, registry};
-use lesk_math::{CHANNELS, Vec3, vec3};
+use lesk_math::{Vec3, vec3};
 
 /// The model with this id.
 pub fn model(id: &str) -> &'static dyn Scatter {
@@ -64,6 +64,13 @@ impl Random {
         let r = (1.0 - z * z).sqrt();
         vec3(r * cos, r * sin, side * z)
     }
+    /// A direction near the horizon: the cosine is uniform in the logarithm from 2e-6 to 0.1.
+    pub fn grazing(&mut self, domain: Domain) -> Vec3<f64> {
+        let w = self.direction(domain, 0.0);
+        let z = 2e-6 * 5e4f64.powf(self.unit());
+        let scale = (1.0 - z * z).sqrt() / (w.x * w.x + w.y * w.y).sqrt();
+        vec3(w.x * scale, w.y * scale, z.copysign(w.z))
+    }
     /// Legal parameters: each uniform, or uniform in the logarithm where the scale is.
     pub fn params(&mut self, specs: &[ParamSpec]) -> Vec<f64> {
         specs.iter().flat_map(|spec| (0..spec.len()).map(|_| self.value(spec)).collect::<Vec<_>>()).collect()
@@ -81,7 +88,7 @@ impl Random {
 
 /// The nearest `f32` of each entry, and that number in `f64`.
 pub fn rounded(params: &[f64]) -> (Vec<f32>, Vec<f64>) {
-    let narrow: Vec<f32> = params.iter().map(|&p| p as f32).collect();
+    let narrow = narrow(params);
     let wide = narrow.iter().map(|&p| f64::from(p)).collect();
     (narrow, wide)
 }
@@ -119,7 +126,12 @@ pub fn condition<const N: usize>(
     sum
 }
 
-/// The number of entries that a parameter has in the flat table, spelled out for tests that vary one of them.
-pub fn entries(spec: &ParamSpec) -> usize {
-    if spec.kind == Kind::Color { CHANNELS } else { 1 }
+/// The (first) entry of a parameter.
+pub fn value_of(model: &dyn Scatter, params: &[f64], name: &str) -> f64 {
+    params[offset_of(model.specs(), name).unwrap_or_else(|| panic!("`{}` has no `{name}`", model.id()))]
+}
+
+/// A flat table in `f32`.
+pub fn narrow(params: &[f64]) -> Vec<f32> {
+    params.iter().map(|&p| p as f32).collect()
 }
