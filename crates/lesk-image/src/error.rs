@@ -96,7 +96,11 @@ impl fmt::Display for ImageError {
                     Some(size) => write!(f, " of {size} bytes")?,
                     None => write!(f, " bytes")?,
                 }
-                write!(f, "\nhint: a previous file of this name is unchanged; free some space or choose another place")
+                f.write_str(match source.kind() {
+                    io::ErrorKind::NotFound => "\nhint: the folder does not exist, make it first",
+                    io::ErrorKind::PermissionDenied => "\nhint: choose a place where you may write",
+                    _ => "\nhint: a previous file of this name is unchanged; free some space or choose another place",
+                })
             }
             Self::Malformed { format, what } => write!(f, "not a valid {format} file: {what}"),
             Self::Unsupported { format, what } => write!(f, "{format}: {what}"),

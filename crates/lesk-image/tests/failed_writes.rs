@@ -64,6 +64,8 @@ fn a_folder_a_missing_folder_and_a_read_only_file_are_refused() {
     let first = |path: &Path| write_bytes(path, b"x").unwrap_err().to_string().lines().next().unwrap().to_string();
     assert!(first(folder.path()).contains("it is a folder"));
     assert!(first(&folder.path().join("missing/a.bin")).contains("no such file or directory after 0 of 1 bytes"));
+    let missing = write_bytes(folder.path().join("missing/a.bin"), b"x").unwrap_err().to_string();
+    assert!(missing.ends_with("hint: the folder does not exist, make it first"), "{missing}");
     let path = folder.path().join("read_only.bin");
     write_bytes(&path, b"kept").unwrap();
     fs::set_permissions(&path, fs::Permissions::from_mode(0o444)).unwrap();

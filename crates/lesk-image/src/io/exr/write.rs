@@ -12,8 +12,8 @@ const LONG_NAMES: u32 = 1 << 10;
 /// Scan lines in one ZIP block.
 const BLOCK_LINES: usize = 16;
 const ZIP: u8 = 3;
-/// Half of the time of the default level for files a few percent larger.
-const DEFLATE_LEVEL: u8 = 4;
+/// A third of the time of level 4 for files 4 % larger: rendered noise hardly compresses, ids and depth do at any level.
+const DEFLATE_LEVEL: u8 = 1;
 /// Primaries and white of Rec.709, x and y each.
 const CHROMATICITIES: [f32; 8] = [0.64, 0.33, 0.30, 0.60, 0.15, 0.06, 0.3127, 0.3290];
 /// Attributes that the writer sets itself.
