@@ -83,7 +83,7 @@ def page(model):
 import lesk
 
 model = lesk.models.{name}()
-f = model.eval(wi=[0.5, 0.0, 0.866], wo=[-0.5, 0.0, 0.866])  # 1/sr
+f = model.eval(wi=[0.6, 0.0, 0.8], wo=[0.0, 0.0, 1.0])  # 1/sr
 ```
 
 ```console

@@ -59,9 +59,7 @@ def test_a_page_that_did_not_change_is_not_written_again(tmp_path):
     assert sorted(p.name for p in tmp_path.iterdir()) == ["claims.txt", "index.md", "phong.md"]
 
 
-@pytest.mark.parametrize(
-    "latex", [r"\frac{D\,F\,G}{4\cos\theta_i}", r"\begin{aligned} a &= b \end{aligned}"]
-)
+@pytest.mark.parametrize("latex", [r"\frac{D\,F\,G}{4\cos\theta_i}", r"\begin{aligned} a &= b \end{aligned}"])
 def test_a_formula_is_one_svg_that_carries_its_source(latex):
     svg = ET.fromstring(svg_math.draw(latex, display=True))
     assert svg.tag.endswith("svg")
