@@ -12,8 +12,8 @@ use std::sync::Arc;
 /// Most instances of a scene, and most groups in groups.
 const MAX_INSTANCES: usize = 1 << 22;
 const MAX_NESTING: usize = 64;
-/// Largest subdivision of the teapot: 32 patches of 512 x 512 cells are 16.8 million triangles.
-pub(crate) const MAX_TEAPOT_LEVEL: u32 = 512;
+/// Largest subdivision of the teapot: 32 patches of 256 x 256 cells are 4.2 million triangles.
+pub(crate) const MAX_TEAPOT_LEVEL: u32 = 256;
 
 /// The geometries that are there already, and their numbers.
 #[derive(Default)]
@@ -261,7 +261,7 @@ impl Resolver<'_> {
         if let Some(&number) = self.geometries.teapots.get(&level) {
             return Some(number);
         }
-        let number = self.add_geometry(Geometry::Mesh(Arc::new(teapot::mesh(level))));
+        let number = self.add_geometry(Geometry::Mesh(Arc::new(teapot(level))));
         self.geometries.teapots.insert(level, number);
         Some(number)
     }
