@@ -20,8 +20,7 @@ fn pair(model: &dyn Scatter, params: &[f64], random: &mut Random) -> (Vec3<f64>,
     (if far { drawn.wi } else { random.direction(domain, 1e-3) }, wo)
 }
 
-/// Whether the gradient jumps within two steps of these parameters: the floors under the widths of slopes, and the
-/// gap around index 1. Each is stated in the model's documentation.
+/// Whether the gradient jumps within two steps of these parameters, at the floors under the widths of slopes.
 fn near_a_kink(model: &dyn Scatter, params: &[f64]) -> bool {
     let value = |name| common::value_of(model, params, name);
     let near = |x: f64, kink: f64| (x / kink - 1.0).abs() < 1e-3;
@@ -31,7 +30,6 @@ fn near_a_kink(model: &dyn Scatter, params: &[f64]) -> bool {
             let (alpha, aspect) = (value("roughness").powi(2), (1.0 - 0.9 * value("anisotropic")).sqrt());
             near(alpha / aspect, 1e-3) || near(alpha * aspect, 1e-3)
         }
-        "rough_dielectric" => near((value("ior") - 1.0).abs(), 1.0 / 1024.0),
         _ => false,
     }
 }

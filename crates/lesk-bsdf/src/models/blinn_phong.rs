@@ -60,10 +60,13 @@ pub const MODEL: Model = Model {
 };
 
 impl<R: Real> BlinnPhong<R> {
-    /// The probability of drawing from the diffuse part.
+    /// The probability of drawing like from a diffuse surface: the diffuse part, and most of a broad highlight, whose
+    /// half vectors would lead below the horizon.
     #[inline(always)]
     fn diffuse_share(&self) -> R {
-        lobe::share(self.diffuse.luminance(), self.specular.luminance())
+        let broad = R::lit(4.0) / (self.shininess + R::lit(4.0));
+        let highlight = self.specular.luminance();
+        lobe::share(self.diffuse.luminance() + highlight * broad, highlight * broad.one_minus())
     }
 }
 

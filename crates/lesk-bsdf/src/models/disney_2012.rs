@@ -55,7 +55,7 @@ pub const MODEL: Model = Model {
         SamplesItself.always(),
         Isotropic.when("anisotropic = 0"),
         NonNegative.always(),
-        Smooth.when("roughness > 0.0563"),
+        Smooth.when("roughness > 0.0563 and base_color >= 0.01"),
     ],
     counterexamples: &[
         Counterexample {
@@ -78,6 +78,13 @@ pub const MODEL: Model = Model {
             wi_deg: [30.0, 0.0],
             wo_deg: [30.0, 180.0],
             because: "the width of the slopes stops at 0.001",
+        },
+        Counterexample {
+            property: Smooth,
+            params: &[("base_color", 0.0), ("specular_tint", 1.0)],
+            wi_deg: [30.0, 0.0],
+            wo_deg: [30.0, 180.0],
+            because: "black has no hue",
         },
     ],
     ..Model::DEFAULT

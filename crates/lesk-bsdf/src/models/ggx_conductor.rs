@@ -36,15 +36,24 @@ pub const MODEL: Model = Model {
         SamplesItself.always(),
         Isotropic.when("alpha_x = alpha_y"),
         NonNegative.always(),
-        Smooth.always(),
+        Smooth.when("k >= 0.01"),
     ],
-    counterexamples: &[Counterexample {
-        property: Isotropic,
-        params: &[("alpha_x", 0.1), ("alpha_y", 0.3)],
-        wi_deg: [30.0, 0.0],
-        wo_deg: [50.0, 140.0],
-        because: "the highlight is wider across than along",
-    }],
+    counterexamples: &[
+        Counterexample {
+            property: Isotropic,
+            params: &[("alpha_x", 0.1), ("alpha_y", 0.3)],
+            wi_deg: [30.0, 0.0],
+            wo_deg: [50.0, 140.0],
+            because: "the highlight is wider across than along",
+        },
+        Counterexample {
+            property: Smooth,
+            params: &[("eta", 0.5), ("k", 0.0)],
+            wi_deg: [30.0, 0.0],
+            wo_deg: [30.0, 180.0],
+            because: "without absorption the boundary of a thinner medium reflects totally, with a kink at the onset",
+        },
+    ],
     ..Model::DEFAULT
 };
 
