@@ -159,7 +159,7 @@ fn damaged(seed: &[u8], changes: &[(prop::sample::Index, u8, u8)], head: bool) -
 }
 
 proptest! {
-    // a fixed seed: 400 000 cases of random seeds found nothing more
+    // a fixed seed: 1 500 000 cases of a random seed found nothing more
     #![proptest_config(ProptestConfig {
         cases: 3000,
         rng_seed: RngSeed::Fixed(1),
