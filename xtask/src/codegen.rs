@@ -11,8 +11,9 @@ struct Generated {
     arguments: &'static [&'static str],
 }
 
+// -P: the folder of the script holds the package's sources, which lack the compiled part
 const GENERATED: [Generated; 1] =
-    [Generated { path: "python/lesk/models.pyi", program: "python", arguments: &["python/stubs.py"] }];
+    [Generated { path: "python/lesk/models.pyi", program: "python", arguments: &["-P", "python/stubs.py"] }];
 
 /// Writes the files; with `--check`, compares them instead.
 pub fn run(arguments: &[String]) -> Result<(), Error> {
