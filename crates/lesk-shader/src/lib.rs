@@ -1,1 +1,90 @@
-//! Shader source from the recorded formulas.
+//! Shader source from the recorded formulas: one definition of a model becomes GLSL, WGSL, HLSL, MSL and SPIR-V.
+//!
+//! ```
+//! use lesk_shader::{Language, Options, Part, export};
+//! let ggx = lesk_bsdf::registry::find("ggx").unwrap();
+//! let source = export(ggx, &[Part::Eval], Language::Wgsl, Options::default()).unwrap();
+//! assert!(source.text().unwrap().contains("let h = wi + wo;"));
+//! ```
+//!
+//! The steps: `record` runs the model with recorded numbers; `pack` turns scalars back into vectors, and `slim` undoes
+//! that where it does not pay; `idiom` finds the functions and spellings that readers expect; `name` decides what becomes
+//! a local; `backend` lowers all that to naga, whose writers know the languages.
+//!
+//! It compiles no shader and runs none.
+
+mod backend;
+mod error;
+mod header;
+mod idiom;
+#[cfg(test)]
+mod interpret;
+mod language;
+mod name;
+mod pack;
+mod packed;
+mod record;
+mod slim;
+#[cfg(test)]
+mod tests;
+
+pub use error::Error;
+pub use language::{Language, Math, Options, Part, Product, Source};
+
+use lesk_bsdf::Scatter;
+use packed::{Packed, Type};
+
+/// One function, ready to be lowered.
+struct Function {
+    part: Part,
+    packed: Packed,
+    /// Name of each node that becomes a local.
+    locals: Vec<Option<String>>,
+    /// Name and type of each result.
+    results: Vec<(&'static str, Type)>,
+}
+
+/// The functions of one model.
+struct Unit {
+    id: String,
+    /// Names and types of the parameters.
+    members: Vec<(String, Type)>,
+    functions: Vec<Function>,
+}
+
+/// Writes the parts `what` of `model` in a language.
+///
+/// The functions are called `<id>_eval` and so on, and take directions in the local frame and a structure with the
+/// model's parameters; the header comment of the text says more. Outside the model's domain they give 0, as the model
+/// does. Non-finite arguments, and parameters outside their ranges, are the caller's business.
+pub fn export(model: &dyn Scatter, what: &[Part], language: Language, options: Options) -> Result<Source, Error> {
+    let repeated = |part: &Part| what.iter().filter(|other| *other == part).count() > 1;
+    if what.is_empty() || what.iter().any(repeated) {
+        return Err(Error::Parts { asked: what.iter().map(|part| part.name()).collect() });
+    }
+    let unit = unit(model, what, options.math)?;
+    let source = backend::write(&unit, language, options.product)?;
+    Ok(match source {
+        Source::Text(text) => Source::Text(header::with_header(&text, model, what, language, options)),
+        binary => binary,
+    })
+}
+
+fn unit(model: &dyn Scatter, what: &[Part], math: Math) -> Result<Unit, Error> {
+    let names = model.specs().iter().map(|spec| backend::words::safe(spec.name));
+    let members = names.zip(model.specs().iter().map(record::member_type)).collect();
+    let mut unit = Unit { id: model.id().to_owned(), members, functions: Vec::new() };
+    for &part in what {
+        unit.functions.push(function(model, part, math)?);
+    }
+    Ok(unit)
+}
+
+fn function(model: &dyn Scatter, part: Part, math: Math) -> Result<Function, Error> {
+    let recording = record::record(model, part, math)?;
+    let packed = idiom::rewrite(&slim::slim(&pack::pack(&recording)?));
+    let members: Vec<String> = model.specs().iter().map(|spec| spec.name.to_owned()).collect();
+    let locals = name::locals(&packed, &part.arguments(), &members);
+    let results = recording.outputs.iter().map(|output| (output.name, output.ty())).collect();
+    Ok(Function { part, packed, locals, results })
+}
