@@ -8,7 +8,7 @@ use lesk_math::Isa;
 use lesk_scene::Scene;
 use std::fmt;
 use std::fs::File;
-use std::io::{self, BufRead, BufReader, Write};
+use std::io::{self, BufRead, BufReader};
 use std::path::Path;
 
 const MAGIC: &str = "LESK CHECKPOINT 1";
@@ -86,8 +86,9 @@ impl std::error::Error for CheckpointError {}
 /// # Errors
 /// What the file system says.
 pub fn save(path: &Path, identity: &Identity, film: &Film) -> Result<(), ImageError> {
-    atomic_write(path, |out: &mut dyn Write| {
-        writeln!(out, "{MAGIC}\n{}", identity.line())?;
+    let head = format!("{MAGIC}\n{}\n", identity.line());
+    atomic_write(path, Some(head.len() as u64 + film.saved_size()), |out| {
+        out.write_all(head.as_bytes())?;
         film.save(out)
     })
 }

@@ -97,8 +97,8 @@ fn spot_concentrates_its_flux_into_the_cone() {
     let spot = Spot::from_flux(
         vec3(0.0, 0.0, 2.0),
         vec3(0.0, 0.0, -1.0),
-        [30f64.to_radians(), 30f64.to_radians()],
         Color::splat(1000.0),
+        [30f64.to_radians(), 30f64.to_radians()],
     )
     .unwrap();
     let found = floor_luminance(|parts| parts.lights.push(Light::Spot(spot)), [0.0, 0.0]);

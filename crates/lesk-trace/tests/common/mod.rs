@@ -2,7 +2,7 @@
 #![allow(dead_code)] // each test file uses a part
 
 use lesk_bsdf::{params, registry};
-use lesk_geometry::{AreaSampler, Geometry, Transform, World, WorldBuilder};
+use lesk_geometry::{Geometry, Transform, World, WorldBuilder};
 use lesk_image::PixelFilter;
 use lesk_light::{Area, Light, Lights};
 use lesk_math::{Color, Vec3, vec3};
@@ -36,7 +36,7 @@ impl Parts {
         Parts { world: WorldBuilder::new(), objects: vec![], materials: vec![], emitters: vec![], lights: vec![] }
     }
 
-    /// Adds an object; `luminance` in cd/m2 makes it a one-sided light.
+    /// Adds an object; `luminance` in cd/m2 makes it a two-sided light.
     pub fn add(&mut self, geometry: Geometry, place: Transform, material: Option<Material>, luminance: f32) {
         let number = self.world.geometry(geometry);
         self.world.instance(number, place).expect("a place that f32 holds");
@@ -53,10 +53,8 @@ impl Parts {
     pub fn build(mut self, camera: Camera, size: [u32; 2]) -> Scene {
         let world: World = self.world.build().expect("a small world");
         for (object, luminance) in self.emitters {
-            let sampler: AreaSampler = world.area_sampler(object as u32).expect("a surface with area");
-            drop(sampler);
             let (geometry, place) = (world.geometry_of(object as u32), world.place(object as u32));
-            let light = Area::new(geometry, place, Color::splat(luminance), false).expect("a legal light");
+            let light = Area::new(geometry, place, Color::splat(luminance), true).expect("a legal light");
             self.objects[object].light = Some(self.lights.len() as u32);
             self.lights.push(Light::Area(light));
         }
