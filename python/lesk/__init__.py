@@ -5,13 +5,87 @@ pictures come from that one definition.
 
 >>> import lesk
 >>> satin = lesk.models.ggx(alpha_x=0.2, alpha_y=0.4)
->>> satin.eval([0.0, 0.6, 0.8], [0.0, 0.0, 1.0]).shape
-(3,)
+>>> satin.eval([0.0, 0.6, 0.8], [0.0, 0.0, 1.0]).round(4).tolist()
+[0.2982, 0.2982, 0.2982]
+
+- `lesk.models`: every model as a class: values, draws, densities, gradients, shader source.
+- `lesk.terms`: the parts of models, alone: distributions of facets, masking, Fresnel.
+- `lesk.plot`: polar cuts, lobes, slices, albedo, a lit sphere.
+- `lesk.check`: runs the claims of a model.
+- `lesk.render`, `lesk.scene`, `lesk.image`: pictures in cd/m², from a scene file to EXR, HDR and PNG.
+
+Nothing is loaded before it is used: `import lesk` takes a few milliseconds.
 """
 
-from lesk import models
-from lesk._lesk import __version__
-from lesk._model import Model, Sample
-from lesk.errors import LeskError, ParameterError, SceneError
+from __future__ import annotations
 
-__all__ = ["LeskError", "Model", "ParameterError", "Sample", "SceneError", "__version__", "models"]
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
+from lesk.errors import (
+    CheckpointError,
+    FileError,
+    ImageError,
+    LeskError,
+    ParameterError,
+    RenderInterrupted,
+    SceneError,
+)
+
+if TYPE_CHECKING:
+    from lesk import image, models, plot, scene, terms
+    from lesk._check import CheckReport, check
+    from lesk._lesk import __version__
+    from lesk._model import Delta, Model, Sample
+    from lesk._render import Progress, Render, render
+
+_MODULES = ("image", "models", "plot", "scene", "terms")
+_NAMES = {
+    "CheckReport": "_check",
+    "Delta": "_model",
+    "Model": "_model",
+    "Progress": "_render",
+    "Render": "_render",
+    "Sample": "_model",
+    "__version__": "_lesk",
+    "check": "_check",
+    "render": "_render",
+}
+
+__all__ = [
+    "CheckReport",
+    "CheckpointError",
+    "Delta",
+    "FileError",
+    "ImageError",
+    "LeskError",
+    "Model",
+    "ParameterError",
+    "Progress",
+    "Render",
+    "RenderInterrupted",
+    "Sample",
+    "SceneError",
+    "__version__",
+    "check",
+    "image",
+    "models",
+    "plot",
+    "render",
+    "scene",
+    "terms",
+]
+
+
+def __getattr__(name: str) -> Any:
+    if name in _MODULES:
+        return import_module(f"lesk.{name}")
+    if name in _NAMES:
+        value = getattr(import_module(f"lesk.{_NAMES[name]}"), name)
+        globals()[name] = value
+        return value
+    raise AttributeError(f"module `lesk` has no attribute `{name}`")
+
+
+def __dir__() -> list[str]:
+    return sorted(__all__)

@@ -2,21 +2,19 @@
 
 from __future__ import annotations
 
-import html
-import json
-from collections.abc import Mapping
-from typing import Any, ClassVar, NamedTuple, cast
+from collections.abc import Mapping, Sequence
+from types import MappingProxyType
+from typing import Any, ClassVar, NamedTuple, Self
 
 import numpy as np
 import numpy.typing as npt
 
 from lesk import _lesk
-from lesk.errors import ParameterError
+from lesk._arrays import Array, leading_shape, numbers, require_directions, result_type, spread, vectors
+from lesk.errors import ParameterError, nearest, quoted
 
-Array = npt.NDArray[np.floating[Any]]
-
-REGISTRY: list[dict[str, Any]] = json.loads(_lesk.registry_json())["models"]
-"""The models with their parameters and claims, as `lesk models --json` prints them."""
+_ALBEDO_BLOCK = 1 << 20
+"""Draws at a time when an albedo is estimated: bounds the memory."""
 
 
 class Sample(NamedTuple):
@@ -32,43 +30,85 @@ class Sample(NamedTuple):
     """Whether a delta lobe was taken, shape (...)."""
 
 
+class Delta(NamedTuple):
+    """The delta lobes of `Model.delta`: at most two per direction; all 0 where there is none."""
+
+    wi: Array
+    """Unit vectors to the light, shape (..., 2, 3)."""
+    weight: Array
+    """Share of the radiance from `wi` that reaches `wo` per channel, shape (..., 2, 3)."""
+    probability: Array
+    """How often `sample` takes the lobe, shape (..., 2)."""
+
+
 class Model:
     """A scattering model with its parameters.
 
     Directions are unit vectors of shape (..., 3) in the local frame (normal +z, tangent +x) and leave the surface:
     `wi` to the light, `wo` to the viewer. Leading shapes of directions and parameters broadcast. float32 directions
-    give float32 results; anything else is computed and returned in float64.
+    give float32 results, whatever the type of the parameters; anything else is computed and returned in float64.
+    Python's lock is released while a method computes.
     """
 
     id: ClassVar[str] = ""
-    info: ClassVar[dict[str, Any]] = {}
+    """The name used everywhere: Python, command line, scene files."""
+    info: ClassVar[Mapping[str, Any]] = {}
+    """Title, year, paper, domain, parameters and claims, as `lesk models --json` prints them."""
 
     def __init__(self, **parameters: npt.ArrayLike) -> None:
+        if not self.id:
+            raise TypeError("`Model` is the base of the classes in `lesk.models`")
         specs = {spec["name"]: spec for spec in self.info["parameters"]}
         for name in parameters:
             if name not in specs:
-                raise ParameterError(_unknown(name, self.id, list(specs)))
+                hint = nearest(name, specs) or f"\nhint: it has {quoted(specs)}"
+                raise ParameterError(f"model `{self.id}` has no parameter `{name}`{hint}")
         self._values = {
-            name: _checked(parameters.get(name, spec["default"]), spec, self.id) for name, spec in specs.items()
+            name: _checked(parameters.get(name, spec["default"]), spec, self.id)
+            for name, spec in specs.items()
         }
+        self._leading: dict[str, tuple[int, ...]] = {}
+        self._flat: list[Array] = []
+        for name, spec in specs.items():
+            value = self._values[name]
+            if spec["kind"] != "color":
+                value = value[..., np.newaxis]
+            self._leading[name] = value.shape[:-1]
+            self._flat += [value[..., c : c + 1] for c in range(spec["length"])]
 
     @property
     def params(self) -> Mapping[str, Array]:
-        """The parameters by name: shape (...) for numbers, (..., 3) for colours."""
-        return dict(self._values)
+        """The parameters by name: shape (...) for numbers, (..., 3) for colours. They cannot be changed; see `replace`."""
+        return MappingProxyType(self._values)
 
     @property
     def entries(self) -> list[str]:
-        """Names of the entries of the flat parameter table: the last axis of `gradient`."""
-        channels = {1: [""], 3: [".r", ".g", ".b"]}
-        return [
-            spec["name"] + suffix
-            for spec in self.info["parameters"]
-            for suffix in (channels[spec["length"]] if spec["kind"] == "color" else [""])
-        ]
+        """Names of the P entries of the flat parameter table: the last axis of `gradient`."""
+        return list(self.info["entries"])
+
+    def replace(self, **parameters: npt.ArrayLike) -> Self:
+        """Make the same model with some parameters changed.
+
+        Parameters
+        ----------
+        **parameters : array_like
+            New values by name.
+
+        Returns
+        -------
+        Model
+            A new model; this one stays as it is.
+
+        Examples
+        --------
+        >>> import lesk
+        >>> lesk.models.ggx(alpha_x=0.1).replace(alpha_y=0.3)
+        lesk.models.ggx(f0=1, alpha_x=0.1, alpha_y=0.3)
+        """
+        return type(self)(**{**self._values, **parameters})
 
     def eval(self, wi: npt.ArrayLike, wo: npt.ArrayLike) -> Array:
-        """The BSDF f(wi, wo) without the cosine.
+        """Evaluate the BSDF f(wi, wo), continuous part, without the cosine.
 
         Parameters
         ----------
@@ -84,11 +124,17 @@ class Model:
         ------
         ParameterError
             If a direction is not of unit length, or shapes do not broadcast.
+
+        Examples
+        --------
+        >>> import lesk
+        >>> lesk.models.lambert(reflectance=0.5).eval([0, 0, 1], [0.6, 0, 0.8]).round(6).tolist()
+        [0.159155, 0.159155, 0.159155]
         """
-        return self._batch("eval", 3, "wi", wi, wo)
+        return self._evaluate("eval", (3,), wi, wo)
 
     def pdf(self, wi: npt.ArrayLike, wo: npt.ArrayLike) -> Array:
-        """The density with which `sample` draws `wi` given `wo`, continuous part.
+        """Compute the density with which `sample` draws `wi` given `wo`, continuous part.
 
         Parameters
         ----------
@@ -98,37 +144,81 @@ class Model:
         Returns
         -------
         ndarray of shape (...)
-            Density in 1/sr over `wi`.
+            Density in 1/sr of solid angle over `wi`.
+
+        Raises
+        ------
+        ParameterError
+            If a direction is not of unit length, or shapes do not broadcast.
         """
-        return cast(Array, self._batch("pdf", 1, "wi", wi, wo)[..., 0])
+        return self._evaluate("pdf", (), wi, wo)
 
     def sample(self, wo: npt.ArrayLike, u: npt.ArrayLike | None = None, *, seed: int = 0) -> Sample:
-        """Draws directions to the light.
+        """Draw directions to the light.
 
         Parameters
         ----------
         wo : array_like of shape (..., 3)
             Unit vectors to the viewer, local frame.
         u : array_like of shape (..., 3), optional
-            Numbers in [0, 1); the third chooses a lobe. Without it, one direction is drawn per `wo`.
+            Numbers in [0, 1); the third chooses a lobe. Without them, draw i takes the numbers that belong to `seed`
+            and i, and there is one draw per element of the leading shape of `wo` and the parameters.
         seed : int
-            Seed of the random numbers used when `u` is not given.
+            Seed of the random numbers, 0 to 2^64 - 1; not used with `u`.
 
         Returns
         -------
         Sample
-            wi, weight, pdf, delta.
+            Named tuple `(wi, weight, pdf, delta)`.
+
+        Raises
+        ------
+        ParameterError
+            If a direction is not of unit length, numbers are outside [0, 1), or shapes do not broadcast.
+
+        Examples
+        --------
+        >>> import lesk, numpy as np
+        >>> wi, weight, pdf, delta = lesk.models.mirror(reflectance=0.9).sample([0.6, 0.0, 0.8])
+        >>> wi.tolist(), weight.tolist(), bool(delta)
+        ([-0.6, 0.0, 0.8], [0.9, 0.9, 0.9], True)
         """
-        wo = _vectors("wo", wo)
-        if u is None:
-            shape = np.broadcast_shapes(wo.shape[:-1], *(self._leading(v, s) for v, s in self._pairs()))
-            dtype = np.float32 if wo.dtype == np.float32 else np.float64
-            u = np.random.Generator(np.random.Philox(seed)).random((*shape, 3), dtype=dtype)
-        out = self._batch("draw", 8, "u", u, wo)
-        return Sample(out[..., :3], out[..., 3:6], out[..., 6], out[..., 7] > 0.5)
+        wo = vectors("wo", wo)
+        given = {} if u is None else {"u": _unit_interval(vectors("u", u))}
+        shape = self._shape(wo=wo, **given)
+        dtype = result_type(wo, *given.values())
+        if not 0 <= seed < 1 << 64:
+            raise ParameterError(f"`seed` is {seed}, but 0 to 2^64 - 1 is accepted")
+        wi, weight = np.empty((*shape, 3), dtype), np.empty((*shape, 3), dtype)
+        pdf, delta = np.empty(shape, dtype), np.empty(shape, np.bool_)
+        out = (wi.reshape(-1), weight.reshape(-1), pdf.reshape(-1), delta.reshape(-1))
+        spread_u = spread(given["u"], shape) if given else None
+        if _lesk.draw(self.id, self._parameters(shape), spread_u, spread(wo, shape), int(seed), out):
+            require_directions(wo=wo)
+        return Sample(wi, weight, pdf, delta)
+
+    def delta(self, wo: npt.ArrayLike) -> Delta:
+        """Give the delta lobes: mirror reflection and refraction, which `eval` and `pdf` do not contain.
+
+        Parameters
+        ----------
+        wo : array_like of shape (..., 3)
+            Unit vectors to the viewer, local frame.
+
+        Returns
+        -------
+        Delta
+            Named tuple `(wi, weight, probability)`; all 0 where there is no lobe.
+        """
+        wo = vectors("wo", wo)
+        shape = self._shape(wo=wo)
+        out = np.empty((*shape, 2, 7), result_type(wo))
+        if _lesk.delta(self.id, self._parameters(shape), spread(wo, shape), out.reshape(-1)):
+            require_directions(wo=wo)
+        return Delta(out[..., :3], out[..., 3:6], out[..., 6])
 
     def gradient(self, wi: npt.ArrayLike, wo: npt.ArrayLike) -> Array:
-        """Exact derivatives of f by the parameters.
+        """Compute exact derivatives of f by the parameters.
 
         Parameters
         ----------
@@ -138,151 +228,164 @@ class Model:
         Returns
         -------
         ndarray of shape (..., 3, P)
-            df_c/dp_j in 1/sr per unit of the parameter; `entries` names the P entries.
+            df_c/dp_j in 1/sr per unit of the parameter; `entries` names the P entries. It is computed in float64.
+
+        Raises
+        ------
+        ParameterError
+            If a direction is not of unit length, or shapes do not broadcast.
+
+        Examples
+        --------
+        >>> import lesk
+        >>> model = lesk.models.lambert(reflectance=0.5)
+        >>> model.entries
+        ['reflectance.r', 'reflectance.g', 'reflectance.b']
+        >>> model.gradient([0, 0, 1], [0, 0, 1])[0].round(6).tolist()  # 1/pi for red only
+        [0.31831, 0.0, 0.0]
         """
-        wi, wo = _vectors("wi", wi), _vectors("wo", wo)
-        count = len(self.entries)
-        shape, n, params, first, second = self._inputs(np.dtype(np.float64), wi, wo)
-        out = np.empty((n, 3 * count), np.float64)
-        _lesk.gradient(self.id, params, first, second, out)
-        return _in_type_of((wi, wo), out.reshape(*shape, 3, count))
+        wi, wo = vectors("wi", wi), vectors("wo", wo)
+        shape = self._shape(wi=wi, wo=wo)
+        out = np.empty((*shape, 3, len(self._flat)), result_type(wi, wo))
+        inputs = (self._parameters(shape), spread(wi, shape), spread(wo, shape))
+        if _lesk.gradient(self.id, *inputs, out.reshape(-1)):
+            require_directions(wi=wi, wo=wo)
+        return out
 
     def albedo(self, wo: npt.ArrayLike, *, samples: int = 4096, seed: int = 0) -> Array:
-        """The directional albedo: the share of light from `wo` that is scattered (Monte Carlo by the model's own draws).
+        """Estimate the directional albedo: the share of light from `wo` that is scattered, delta lobes included.
 
         Parameters
         ----------
         wo : array_like of shape (..., 3)
             Unit vectors, local frame.
         samples : int
-            Draws per direction; the standard error falls with its root.
+            Draws per direction, from a scrambled Sobol sequence. The error is about 1e-4 with 4096.
         seed : int
-            Seed of the draws.
+            Seed of the scrambling.
 
         Returns
         -------
         ndarray of shape (..., 3)
-            Albedo per channel.
+            Albedo per channel, dimensionless.
+
+        Examples
+        --------
+        >>> import lesk
+        >>> lesk.models.lambert(reflectance=[0.2, 0.5, 0.8]).albedo([0, 0, 1]).round(4).tolist()
+        [0.2, 0.5, 0.8]
         """
-        wo = _vectors("wo", wo)
-        drawn = self.sample(np.broadcast_to(wo, (samples, *wo.shape)), seed=seed)
-        return cast(Array, drawn.weight.mean(axis=0, dtype=np.float64))
+        wo = vectors("wo", wo)
+        if not 1 <= samples < 1 << 32:
+            raise ParameterError(f"`samples` is {samples}, but 1 to 2^32 - 1 is accepted")
+        shape = self._shape(wo=wo)
+        dtype = result_type(wo)
+        total = np.zeros((*shape, 3), np.float64)
+        block = max(1, _ALBEDO_BLOCK // max(1, total.size // 3))
+        for start in range(0, samples, block):
+            points = _lesk.sobol(start, min(block, samples - start), seed & 0xFFFF_FFFF)
+            u = points.reshape(-1, *(1,) * len(shape), 3).astype(dtype, copy=False)
+            total += self.sample(wo, u).weight.sum(axis=0, dtype=np.float64)
+        return (total / samples).astype(dtype)
+
+    def shader(
+        self,
+        language: str,
+        *,
+        parts: Sequence[str] = ("eval", "pdf", "sample"),
+        math: str = "builtin",
+        complete: bool = False,
+    ) -> str | bytes:
+        """Write the model as shader source; parameters are arguments there, their values here do not matter.
+
+        Parameters
+        ----------
+        language : str
+            `glsl-es` (3.00), `glsl` (4.50), `wgsl`, `hlsl`, `msl` or `spirv`.
+        parts : sequence of str
+            Which functions: `eval`, `pdf`, `sample`, `draw`.
+        math : str
+            `builtin` uses the target's exponentials and trigonometry, `exact` Lesk's own polynomials.
+        complete : bool
+            A complete fragment shader instead of functions to paste.
+
+        Returns
+        -------
+        str or bytes
+            The source; bytes for `spirv`.
+
+        Examples
+        --------
+        >>> import lesk
+        >>> "fn lambert_eval" in lesk.models.lambert().shader("wgsl")
+        True
+        """
+        from lesk._shader import export
+
+        return export(self.id, language, parts=parts, math=math, complete=complete)
 
     def __repr__(self) -> str:
-        return f"lesk.models.{self.id}({', '.join(f'{k}={_short(v)}' for k, v in self._values.items())})"
+        values = ", ".join(f"{name}={_short(value)}" for name, value in self._values.items())
+        return f"lesk.models.{self.id}({values})"
 
     def _repr_html_(self) -> str:
-        rows = "".join(
-            f"<tr><td><code>{spec['name']}</code></td><td>{html.escape(_short(self._values[spec['name']]))}</td>"
-            f"<td>{html.escape(spec['unit'])}</td><td>{html.escape(spec['doc'])}</td></tr>"
-            for spec in self.info["parameters"]
-        )
-        return f"<b>{html.escape(self.info['title'])}</b> ({self.info['year']})<table>{rows}</table>"
+        from lesk._html import describe
 
-    def _pairs(self) -> list[tuple[Array, dict[str, Any]]]:
-        return [(self._values[spec["name"]], spec) for spec in self.info["parameters"]]
+        return describe(self)
 
-    @staticmethod
-    def _leading(value: Array, spec: dict[str, Any]) -> tuple[int, ...]:
-        return value.shape[:-1] if spec["kind"] == "color" else value.shape
+    def _shape(self, **named: Array) -> tuple[int, ...]:
+        """Broadcast the leading shapes of vectors and parameters."""
+        return leading_shape({**{name: a.shape[:-1] for name, a in named.items()}, **self._leading})
 
-    def _inputs(
-        self, dtype: np.dtype[Any], first: Array, second: Array
-    ) -> tuple[tuple[int, ...], int, list[Array], Array, Array]:
-        """The common leading shape, its size, the flat parameters, and both vectors with 1 or n rows."""
-        leading = [self._leading(value, spec) for value, spec in self._pairs()]
-        try:
-            shape = np.broadcast_shapes(first.shape[:-1], second.shape[:-1], *leading)
-        except ValueError:
-            shapes = ", ".join(str(s) for s in (first.shape[:-1], second.shape[:-1], *leading))
-            raise ParameterError(f"the leading shapes {shapes} do not broadcast") from None
-        n = int(np.prod(shape, dtype=np.int64))
-        params: list[Array] = []
-        for value, spec in self._pairs():
-            channels = [value[..., c] for c in range(spec["length"])] if spec["kind"] == "color" else [value]
-            params += [_rows(channel, shape, (), dtype) for channel in channels]
-        return shape, n, params, _rows(first, shape, (3,), dtype), _rows(second, shape, (3,), dtype)
+    def _parameters(self, shape: tuple[int, ...]) -> list[Array]:
+        return [spread(entry, shape) for entry in self._flat]
 
-    def _batch(self, what: str, width: int, name: str, first: npt.ArrayLike, second: npt.ArrayLike) -> Array:
-        a, b = _vectors(name, first), _vectors("wo", second)
-        single = a.dtype == np.float32 and b.dtype == np.float32
-        dtype = np.dtype(np.float32 if single else np.float64)
-        shape, n, params, rows_a, rows_b = self._inputs(dtype, a, b)
-        out = np.empty((n, width), dtype)
-        run = _lesk.batch_f32 if single else _lesk.batch_f64
-        if run(self.id, what, params, rows_a, rows_b, out):
-            for label, rows in ((name, rows_a), ("wo", rows_b)):
-                if label != "u":
-                    _require_unit(label, rows)
-        return out.reshape(*shape, width)
+    def _evaluate(
+        self, what: str, tail: tuple[int, ...], wi: npt.ArrayLike, wo: npt.ArrayLike
+    ) -> Array:
+        wi, wo = vectors("wi", wi), vectors("wo", wo)
+        shape = self._shape(wi=wi, wo=wo)
+        out = np.empty((*shape, *tail), result_type(wi, wo))
+        inputs = (self._parameters(shape), spread(wi, shape), spread(wo, shape))
+        if _lesk.evaluate(self.id, what, *inputs, out.reshape(-1)):
+            require_directions(wi=wi, wo=wo)
+        return out
 
 
-def _vectors(name: str, value: npt.ArrayLike) -> Array:
-    array = np.asarray(value)
-    if array.ndim == 0 or array.shape[-1] != 3:
-        raise ParameterError(f"`{name}` has shape {array.shape}, but (..., 3) is accepted")
-    if array.dtype not in (np.float32, np.float64):
-        try:
-            array = array.astype(np.float64)
-        except (TypeError, ValueError):
-            raise ParameterError(f"`{name}` holds {array.dtype}, but numbers are accepted") from None
-    return cast(Array, array)
+def _unit_interval(u: Array) -> Array:
+    # negated, so that NaN is caught
+    if u.size and not (u.min() >= 0 and u.max() < 1):
+        wrong = u[~((u >= 0) & (u < 1))].flat[0]
+        raise ParameterError(f"`u` holds {wrong:g}, but numbers from 0 to below 1 are accepted")
+    return u
 
 
-def _rows(value: Array, shape: tuple[int, ...], tail: tuple[int, ...], dtype: np.dtype[Any]) -> Array:
-    """`value` as contiguous rows: one if it is the same everywhere, else one per element of `shape`."""
-    if value.size == int(np.prod(tail, dtype=np.int64)):
-        return np.ascontiguousarray(value.reshape(1, *tail) if tail else value.reshape(1), dtype=dtype)
-    full = np.broadcast_to(value, shape + tail)
-    return np.ascontiguousarray(full, dtype=dtype).reshape(-1, *tail)
-
-
-def _require_unit(name: str, rows: Array) -> None:
-    length = np.linalg.norm(rows.astype(np.float64), axis=-1)
-    odd = np.flatnonzero(np.isfinite(length) & (np.abs(length * length - 1) > 1e-4))
-    if odd.size:
-        i = int(odd[0])
-        raise ParameterError(
-            f"`{name}` is not of unit length: {odd.size} of {len(rows)} vectors, the first at index {i} has length "
-            f"{length[i]:.6g}, but 1 within 5e-5 is accepted\nhint: divide by numpy.linalg.norm({name}, axis=-1, keepdims=True)"
-        )
-
-
-def _checked(value: npt.ArrayLike, spec: dict[str, Any], model: str) -> Array:
+def _checked(value: npt.ArrayLike, spec: Mapping[str, Any], model: str) -> Array:
+    """Copy a parameter and check its shape and range."""
     name, (lo, hi) = spec["name"], spec["range"]
-    try:
-        array = np.asarray(value, dtype=np.float64)
-    except (TypeError, ValueError):
-        raise ParameterError(f"`{name}` is {value!r}, but model `{model}` accepts numbers") from None
+    array = numbers(name, value).copy()
     if spec["kind"] == "color" and (array.ndim == 0 or array.shape[-1] != spec["length"]):
         if array.ndim:
             raise ParameterError(
-                f"`{name}` has shape {array.shape}, but a colour is one number or has shape (..., {spec['length']})"
+                f"`{name}` has shape {array.shape}, but a colour of model `{model}` is one number or has shape "
+                f"(..., {spec['length']})"
             )
-        array = np.broadcast_to(array, (spec["length"],))
-    bad = ~((array >= lo) & (array <= hi))
-    # a value of the float32 border may lie a rounding beyond the border in float64
-    bad &= ~(np.isclose(array, lo, rtol=1e-7, atol=0) | np.isclose(array, hi, rtol=1e-7, atol=0))
+        array = np.full(spec["length"], array)
+    # a border that was rounded to float32 may lie beyond itself in float64
+    slack = 1e-7
+    bad = ~((array >= lo - slack * abs(lo)) & (array <= hi + slack * abs(hi)))
     if bad.any():
-        raise ParameterError(f"`{name}` is {array[bad].flat[0]:g}, but model `{model}` accepts {lo:g} to {hi:g}")
-    return np.clip(array, lo, hi)
-
-
-def _unknown(name: str, model: str, known: list[str]) -> str:
-    from difflib import get_close_matches
-
-    close = get_close_matches(name, known, n=1)
-    hint = f"\nhint: did you mean `{close[0]}`?" if close else ""
-    return f"model `{model}` has no parameter `{name}`; it has {', '.join(f'`{k}`' for k in known)}{hint}"
+        given = array[bad].flat[0]
+        raise ParameterError(f"`{name}` is {given:g}, but model `{model}` accepts {lo:g} to {hi:g}")
+    np.clip(array, lo, hi, out=array)
+    array.flags.writeable = False
+    return array
 
 
 def _short(value: Array) -> str:
     if value.ndim == 0:
         return f"{value:g}"
     if value.ndim == 1 and value.size == 3:
-        return f"{value[0]:g}" if (value == value[0]).all() else "[" + ", ".join(f"{v:g}" for v in value) + "]"
+        same = (value == value[0]).all()
+        return f"{value[0]:g}" if same else "[" + ", ".join(f"{v:g}" for v in value) + "]"
     return f"<array of shape {value.shape}>"
-
-
-def _in_type_of(inputs: tuple[Array, ...], result: Array) -> Array:
-    return result.astype(np.float32) if all(a.dtype == np.float32 for a in inputs) else result

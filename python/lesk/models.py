@@ -1,25 +1,50 @@
-"""Every model of the registry as a class: `lesk.models.ggx(alpha_x=0.2)`."""
+"""Every model of the registry as a class: `lesk.models.ggx(alpha_x=0.2)`.
+
+`lesk.models.ALL` holds the classes by name, in reading order.
+"""
 
 from __future__ import annotations
 
-from typing import Any
+from lesk._docstring import model_docstring
+from lesk._model import Delta, Model, Sample
+from lesk._registry import MODELS, find
 
-from lesk._model import REGISTRY, Model, Sample
+__all__ = ["ALL", "Delta", "Model", "Sample", "create"]
 
-__all__ = ["Model", "Sample"]
-
-
-def _docstring(info: dict[str, Any]) -> str:
-    lines = [f"{info['title']} ({info['year']}).", "", info["doc"], "", "Parameters", "----------"]
-    for spec in info["parameters"]:
-        shape = "array_like of shape (..., 3) or float" if spec["kind"] == "color" else "array_like of shape (...)"
-        unit = f", {spec['unit']}" if spec["unit"] else ", dimensionless"
-        low, high = spec["range"]
-        lines += [f"{spec['name']} : {shape}, default {spec['default']}", f"    {spec['doc']} [{low:g}, {high:g}]{unit}"]
-    return "\n".join([*lines, "", "References", "----------", info["paper"]])
+ALL: dict[str, type[Model]] = {}
+"""The classes by name, in reading order."""
 
 
-for _info in REGISTRY:
-    _members = {"id": _info["id"], "info": _info, "__doc__": _docstring(_info), "__module__": __name__}
-    globals()[_info["id"]] = type(_info["id"], (Model,), _members)
-    __all__.append(_info["id"])
+def create(name: str, **parameters: object) -> Model:
+    """Make a model by its name.
+
+    Parameters
+    ----------
+    name : str
+        The id, as in `lesk models`.
+    **parameters : array_like
+        Values by name; the others have their defaults.
+
+    Returns
+    -------
+    Model
+
+    Raises
+    ------
+    ParameterError
+        If there is no such model or parameter, or a value is outside its range.
+    """
+    find(name)
+    return ALL[name](**parameters)  # type: ignore[arg-type]
+
+
+for _info in MODELS:
+    _members = {
+        "id": _info["id"],
+        "info": _info,
+        "__doc__": model_docstring(_info),
+        "__module__": __name__,
+    }
+    ALL[_info["id"]] = type(_info["id"], (Model,), _members)
+globals().update(ALL)
+__all__ += ALL

@@ -1,20 +1,22 @@
 //! Models over NumPy arrays.
 
+use crate::arrays::{Input, Number, Rows, Source, in_parts, share};
 use crate::value_error;
-use lesk_bsdf::batch::{self, Column, Out};
-use lesk_bsdf::kernels::DRAW_OUTPUTS;
+use lesk_bsdf::batch::{self, Column, Out, UNIT_TOLERANCE};
+use lesk_bsdf::bsdf::in_domain;
 use lesk_bsdf::scatter::{Methods, Scatter};
 use lesk_bsdf::{params, registry};
 use lesk_math::{CHANNELS, Isa, Vec3, vec3};
-use numpy::{Element, PyArray2, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2, PyUntypedArrayMethods};
+use numpy::PyReadwriteArray1;
 use pyo3::prelude::*;
-use rayon::prelude::*;
 use serde_json::json;
 
 /// Below this number of directions per thread, splitting costs more than it gains.
 const GRAIN: usize = 1 << 15;
+/// The same for the reference formulas, which do one direction at a time.
+const REFERENCE_GRAIN: usize = 1 << 10;
 
-fn find(id: &str) -> PyResult<&'static dyn Scatter> {
+pub fn find(id: &str) -> PyResult<&'static dyn Scatter> {
     registry::find(id).ok_or_else(|| value_error(format!("there is no model `{id}`")))
 }
 
@@ -28,241 +30,230 @@ pub fn registry_json() -> String {
 fn describe(model: &dyn Scatter) -> serde_json::Value {
     let facts = model.model();
     let kind = |k| if k == params::Kind::Color { "color" } else { "scalar" };
-    let parameters: Vec<_> = model
-        .specs()
-        .iter()
-        .map(|p| {
-            let default = if p.default.len() == 1 { json!(p.default[0]) } else { json!(p.default) };
-            json!({
-                "name": p.name, "doc": p.doc, "kind": kind(p.kind), "default": default, "range": p.range,
-                "slider": p.slider, "scale": if p.log { "log" } else { "linear" }, "unit": p.unit, "length": p.len(),
-            })
+    let parameters = model.specs().iter().map(|p| {
+        let default = if p.default.len() == 1 { json!(p.default[0]) } else { json!(p.default) };
+        json!({
+            "name": p.name, "doc": p.doc, "kind": kind(p.kind), "default": default, "range": p.range,
+            "slider": p.slider, "scale": if p.log { "log" } else { "linear" }, "unit": p.unit, "length": p.len(),
         })
-        .collect();
-    let claims: Vec<_> =
-        facts.claims.iter().map(|c| json!({ "property": c.property.name(), "when": c.when })).collect();
-    let counterexamples: Vec<_> = facts
-        .counterexamples
-        .iter()
-        .map(|c| json!({ "property": c.property.name(), "because": c.because, "wi_deg": c.wi_deg, "wo_deg": c.wo_deg }))
-        .collect();
+    });
+    let claims = facts.claims.iter().map(|c| json!({ "property": c.property.name(), "when": c.when }));
+    let counterexamples = facts.counterexamples.iter().map(
+        |c| json!({ "property": c.property.name(), "because": c.because, "wi_deg": c.wi_deg, "wo_deg": c.wo_deg }),
+    );
+    let limits = facts.limits.iter().map(|limit| {
+        let at: Vec<_> = limit.at.iter().map(|(name, value)| json!({ "name": name, "value": value })).collect();
+        json!({ "at": at, "equals": limit.equals })
+    });
     json!({
         "id": model.id(), "title": facts.title, "year": facts.year, "paper": facts.paper, "doc": model.doc(),
-        "domain": format!("{:?}", facts.domain), "parameters": parameters, "claims": claims,
-        "counterexamples": counterexamples,
+        "domain": format!("{:?}", facts.domain), "parameters": parameters.collect::<Vec<_>>(),
+        "entries": params::flat_names(model.specs()), "claims": claims.collect::<Vec<_>>(),
+        "counterexamples": counterexamples.collect::<Vec<_>>(), "limits": limits.collect::<Vec<_>>(),
     })
 }
 
-/// The inputs of a batch: each entry has one row (used for all) or `n` rows.
-struct Inputs<'a, T> {
-    params: Vec<&'a [T]>,
-    first: &'a [T],
-    second: &'a [T],
+/// The inputs of a model's method: the flat parameters, then vectors.
+pub fn inputs<'a>(
+    model: &dyn Scatter,
+    params: &'a [Source],
+    vectors: &[&'a Source],
     n: usize,
+) -> PyResult<Vec<Input<'a>>> {
+    if params.len() != model.param_count() {
+        let what = format!("{} parameter entries are needed, not {}", model.param_count(), params.len());
+        return Err(value_error(what));
+    }
+    let flat = params.iter().map(|p| Input::new(p, 1, n));
+    flat.chain(vectors.iter().map(|v| Input::new(v, 3, n))).collect()
 }
 
-impl<'a, T: Copy> Inputs<'a, T> {
-    fn new(params: &'a [&'a [T]], first: &'a [T], second: &'a [T], n: usize, count: usize) -> PyResult<Self> {
-        if params.len() != count {
-            return Err(value_error(format!("{count} parameter entries are needed, not {}", params.len())));
-        }
-        let fits = |len: usize, width: usize| len == width || len == n * width;
-        if !params.iter().all(|p| fits(p.len(), 1)) || !fits(first.len(), 3) || !fits(second.len(), 3) {
-            return Err(value_error(format!("every input must have 1 or {n} rows")));
-        }
-        Ok(Inputs { params: params.to_vec(), first, second, n })
-    }
-
-    /// Rows `start..start + n`.
-    fn part(&self, start: usize, n: usize) -> Inputs<'a, T> {
-        let cut = |v: &'a [T], width: usize| if v.len() == width { v } else { &v[start * width..(start + n) * width] };
-        let params = self.params.iter().map(|p| cut(p, 1)).collect();
-        Inputs { params, first: cut(self.first, 3), second: cut(self.second, 3), n }
-    }
-
-    fn vector(v: &[T], i: usize) -> Vec3<T> {
-        let at = if v.len() == 3 { 0 } else { 3 * i };
-        vec3(v[at], v[at + 1], v[at + 2])
-    }
-
-    fn param(&self, i: usize, out: &mut Vec<T>) {
-        out.clear();
-        out.extend(self.params.iter().map(|p| p[if p.len() == 1 { 0 } else { i }]));
+/// The parameters of direction `i`, copied to `out`.
+pub fn flat<T: Number>(rows: &Rows<T>, i: usize, out: &mut [T]) {
+    for (j, p) in out.iter_mut().enumerate() {
+        *p = rows.row(j, i)[0];
     }
 }
 
-fn width_of(what: &str) -> PyResult<usize> {
-    match what {
-        "eval" => Ok(CHANNELS),
-        "pdf" => Ok(1),
-        "draw" => Ok(DRAW_OUTPUTS),
-        other => Err(value_error(format!("`{other}` is not one of eval, pdf, draw"))),
-    }
+pub fn vector<T: Number>(rows: &Rows<T>, input: usize, i: usize) -> Vec3<T> {
+    let v = rows.row(input, i);
+    vec3(v[0], v[1], v[2])
 }
 
-fn views<'a, T: Element>(arrays: &'a [PyReadonlyArray1<'_, T>]) -> PyResult<Vec<&'a [T]>> {
-    arrays.iter().map(|a| a.as_slice().map_err(value_error)).collect()
+/// Whether a direction is not of unit length, or not finite.
+pub fn is_odd(v: Vec3<f64>) -> bool {
+    !((v.length_squared() - 1.0).abs() <= UNIT_TOLERANCE.into())
 }
 
-/// The columns of one or `n` vectors.
-fn vectors(v: &[f32], n: usize) -> [Column<'_>; 3] {
-    if v.len() == 3 { [0, 1, 2].map(|c| Column::strided(&v[c..], 0, 1)) } else { Column::interleaved(v, n) }
-}
-
-/// Runs `eval`, `pdf` or `draw` over float32 arrays into `out` of shape (n, outputs).
-///
-/// `first` is wi (eval, pdf) or u (draw), `second` is wo; inputs have 1 or n rows and are contiguous. Returns how many
-/// directions were not of unit length.
-#[pyfunction]
-pub fn batch_f32(
-    py: Python<'_>,
-    id: &str,
-    what: &str,
-    params: Vec<PyReadonlyArray1<'_, f32>>,
-    first: PyReadonlyArray2<'_, f32>,
-    second: PyReadonlyArray2<'_, f32>,
-    out: &Bound<'_, PyArray2<f32>>,
-) -> PyResult<usize> {
-    let model = find(id)?;
-    let width = width_of(what)?;
-    let mut target = out.readwrite();
-    let n = out.shape()[0];
-    let params = views(&params)?;
-    let inputs = Inputs::new(
-        &params,
-        first.as_slice().map_err(value_error)?,
-        second.as_slice().map_err(value_error)?,
-        n,
-        model.param_count(),
-    )?;
-    let target = target.as_slice_mut().map_err(value_error)?;
-    if target.len() != n * width {
-        return Err(value_error(format!("the output needs {width} columns")));
-    }
-    let isa = Isa::current();
-    let what = what.to_owned();
-    Ok(py.detach(|| {
-        let grain = n.div_ceil(rayon::current_num_threads()).max(GRAIN);
-        target.par_chunks_mut(grain * width).enumerate().map(|(k, chunk)| {
-            let rows = chunk.len() / width;
-            let part = inputs.part(k * grain, rows);
-            let columns: Vec<Column> = part
-                .params
-                .iter()
-                .map(|p| if p.len() == 1 { Column::uniform(&p[0]) } else { Column::contiguous(p) })
-                .collect();
-            let run = match what.as_str() {
-                "eval" => batch::eval,
-                "pdf" => batch::pdf,
-                _ => batch::draw,
-            };
-            run(
-                model,
-                isa,
-                &columns,
-                vectors(part.first, rows),
-                vectors(part.second, rows),
-                rows,
-                Out::Interleaved(chunk),
-            );
-        });
-    }))
-}
-
-fn reference(model: &dyn Scatter) -> PyResult<&'static Methods<f64>> {
+pub fn reference(model: &dyn Scatter) -> PyResult<&'static Methods<f64>> {
     model.forms().reference.ok_or_else(|| value_error(format!("model `{}` exists in float32 only", model.id())))
 }
 
-/// The same as [`batch_f32`] in float64, by the reference formulas.
+/// The flat output of a batch, in the type in which it is computed.
+#[derive(FromPyObject)]
+pub enum Target<'py> {
+    Single(PyReadwriteArray1<'py, f32>),
+    Double(PyReadwriteArray1<'py, f64>),
+}
+
+pub fn rows_of<T>(out: &[T], width: usize) -> PyResult<usize> {
+    if out.len() % width == 0 { Ok(out.len() / width) } else { Err(value_error(format!("rows of {width} are needed"))) }
+}
+
+/// The columns of parameters and of two vectors.
+pub fn columns<'a>(rows: &Rows<'a, f32>) -> (Vec<Column<'a>>, [Column<'a>; 3], [Column<'a>; 3]) {
+    let count = rows.len() - 2;
+    let param = |(values, uniform): (&'a [f32], bool)| {
+        if uniform { Column::uniform(&values[0]) } else { Column::contiguous(values) }
+    };
+    let vectors = |(values, uniform): (&'a [f32], bool)| {
+        if uniform { [0, 1, 2].map(|c| Column::uniform(&values[c])) } else { Column::interleaved(values, rows.n) }
+    };
+    let flat = (0..count).map(|j| param(rows.input(j))).collect();
+    (flat, vectors(rows.input(count)), vectors(rows.input(count + 1)))
+}
+
+/// `eval` (out: n rows of channels) or `pdf` (n numbers). Returns how many directions were not of unit length.
+///
+/// The type of the output decides: float32 goes through the kernels, float64 through the reference formulas.
 #[pyfunction]
-pub fn batch_f64(
+pub fn evaluate(
     py: Python<'_>,
     id: &str,
     what: &str,
-    params: Vec<PyReadonlyArray1<'_, f64>>,
-    first: PyReadonlyArray2<'_, f64>,
-    second: PyReadonlyArray2<'_, f64>,
-    out: &Bound<'_, PyArray2<f64>>,
-) -> PyResult<()> {
+    params: Vec<Source<'_>>,
+    wi: Source<'_>,
+    wo: Source<'_>,
+    out: Target<'_>,
+) -> PyResult<usize> {
     let model = find(id)?;
-    let methods = reference(model)?;
-    let width = width_of(what)?;
-    let mut target = out.readwrite();
-    let n = out.shape()[0];
-    let params = views(&params)?;
-    let inputs = Inputs::new(
-        &params,
-        first.as_slice().map_err(value_error)?,
-        second.as_slice().map_err(value_error)?,
-        n,
-        model.param_count(),
-    )?;
-    let target = target.as_slice_mut().map_err(value_error)?;
-    if target.len() != n * width {
-        return Err(value_error(format!("the output needs {width} columns")));
-    }
-    let what = what.to_owned();
-    py.detach(|| {
-        let grain = n.div_ceil(rayon::current_num_threads()).max(1024);
-        target.par_chunks_mut(grain * width).enumerate().for_each(|(k, chunk)| {
-            let part = inputs.part(k * grain, chunk.len() / width);
-            let mut p = Vec::with_capacity(part.params.len());
-            for (i, row) in chunk.chunks_exact_mut(width).enumerate() {
-                part.param(i, &mut p);
-                let (a, b) = (Inputs::vector(part.first, i), Inputs::vector(part.second, i));
-                match what.as_str() {
-                    "eval" => row.copy_from_slice(&(methods.eval)(&p, a, b).0),
-                    "pdf" => row[0] = (methods.pdf)(&p, a, b),
-                    _ => {
-                        let s = (methods.draw)(&p, b, a.to_array());
-                        row[..3].copy_from_slice(&s.wi.to_array());
-                        row[3..3 + CHANNELS].copy_from_slice(&s.weight.0);
-                        row[3 + CHANNELS..].copy_from_slice(&[s.pdf, s.delta]);
-                    }
+    let is_eval = match what {
+        "eval" => true,
+        "pdf" => false,
+        other => return Err(value_error(format!("`{other}` is not one of eval, pdf"))),
+    };
+    let width = if is_eval { CHANNELS } else { 1 };
+    match out {
+        Target::Single(mut out) => {
+            let out = out.as_slice_mut().map_err(value_error)?;
+            let n = rows_of(out, width)?;
+            let inputs = inputs(model, &params, &[&wi, &wo], n)?;
+            let (isa, run) = (Isa::current(), if is_eval { batch::eval } else { batch::pdf });
+            Ok(py.detach(|| {
+                in_parts(
+                    &inputs,
+                    n,
+                    share(n, GRAIN),
+                    |size| out.chunks_mut(size * width).collect(),
+                    |rows: &Rows<f32>, out| {
+                        let (params, wi, wo) = columns(rows);
+                        run(model, isa, &params, wi, wo, rows.n, Out::Interleaved(out))
+                    },
+                )
+            }))
+        }
+        out => {
+            let methods = reference(model)?;
+            reference_rows(py, model, &params, [&wi, &wo], width, out, |p, wi, wo, row| {
+                if is_eval {
+                    row.copy_from_slice(&(methods.eval)(p, wi, wo).0);
+                } else {
+                    row[0] = (methods.pdf)(p, wi, wo);
                 }
-            }
-        });
-    });
-    Ok(())
+            })
+        }
+    }
 }
 
-/// df_c/dp_j for n pairs of directions into `out` of shape (n, channels * P).
+/// Runs a reference formula for each direction, in float64, and rounds its row to the type of the output. Returns how
+/// many vectors were not of unit length.
+fn each<T: Number>(
+    inputs: &[Input],
+    width: usize,
+    out: &mut [T],
+    run: impl Fn(&[f64], Vec3<f64>, Vec3<f64>, &mut [f64]) + Sync,
+) -> usize {
+    let (n, count) = (out.len() / width, inputs.len() - 2);
+    in_parts(
+        inputs,
+        n,
+        share(n, REFERENCE_GRAIN),
+        |size| out.chunks_mut(size * width).collect(),
+        |rows: &Rows<f64>, out: &mut [T]| {
+            let (mut params, mut row) = (vec![0.0; count], vec![0.0; width]);
+            let mut odd = 0;
+            for (i, out) in out.chunks_exact_mut(width).enumerate() {
+                flat(rows, i, &mut params);
+                let (first, second) = (vector(rows, count, i), vector(rows, count + 1, i));
+                odd += usize::from(is_odd(first)) + usize::from(is_odd(second));
+                run(&params, first, second, &mut row);
+                for (to, from) in out.iter_mut().zip(&row) {
+                    *to = T::from_f64(*from);
+                }
+            }
+            odd
+        },
+    )
+}
+
+/// df_c/dp_j, out: n rows of channels * P. Returns how many directions were not of unit length.
 #[pyfunction]
 pub fn gradient(
     py: Python<'_>,
     id: &str,
-    params: Vec<PyReadonlyArray1<'_, f64>>,
-    wi: PyReadonlyArray2<'_, f64>,
-    wo: PyReadonlyArray2<'_, f64>,
-    out: &Bound<'_, PyArray2<f64>>,
-) -> PyResult<()> {
+    params: Vec<Source<'_>>,
+    wi: Source<'_>,
+    wo: Source<'_>,
+    out: Target<'_>,
+) -> PyResult<usize> {
     let model = find(id)?;
-    let derive = model.forms().gradient.ok_or_else(|| value_error(format!("model `{id}` has no exact gradient")))?;
-    let mut target = out.readwrite();
-    let n = out.shape()[0];
+    let derive = model.forms().gradient.ok_or_else(|| value_error(format!("model `{id}` has no exact derivatives")))?;
     let width = CHANNELS * model.param_count();
-    let params = views(&params)?;
-    let inputs = Inputs::new(
-        &params,
-        wi.as_slice().map_err(value_error)?,
-        wo.as_slice().map_err(value_error)?,
-        n,
-        model.param_count(),
-    )?;
-    let target = target.as_slice_mut().map_err(value_error)?;
-    if target.len() != n * width {
-        return Err(value_error(format!("the output needs {width} columns")));
-    }
-    py.detach(|| {
-        let grain = n.div_ceil(rayon::current_num_threads()).max(1024);
-        target.par_chunks_mut(grain * width).enumerate().for_each(|(k, chunk)| {
-            let part = inputs.part(k * grain, chunk.len() / width);
-            let mut p = Vec::with_capacity(part.params.len());
-            for (i, row) in chunk.chunks_exact_mut(width).enumerate() {
-                part.param(i, &mut p);
-                derive(&p, Inputs::vector(part.first, i), Inputs::vector(part.second, i), row);
+    reference_rows(py, model, &params, [&wi, &wo], width, out, |p, wi, wo, row| {
+        derive(p, wi, wo, row);
+    })
+}
+
+/// The two delta lobes, out: n rows of twice wi, weight, probability; all 0 where there is none. Returns a positive
+/// number if directions were not of unit length.
+#[pyfunction]
+pub fn delta(py: Python<'_>, id: &str, params: Vec<Source<'_>>, wo: Source<'_>, out: Target<'_>) -> PyResult<usize> {
+    let model = find(id)?;
+    let (methods, domain) = (reference(model)?, model.model().domain);
+    let lobe_width = 3 + CHANNELS + 1;
+    reference_rows(py, model, &params, [&wo, &wo], 2 * lobe_width, out, |p, _, wo, row| {
+        row.fill(0.0);
+        let lobes = if in_domain(domain, wo) { (methods.delta)(p, wo) } else { None };
+        for (lobe, out) in lobes.iter().flatten().zip(row.chunks_exact_mut(lobe_width)) {
+            if lobe.probability > 0.0 {
+                out[..3].copy_from_slice(&lobe.wi.to_array());
+                out[3..3 + CHANNELS].copy_from_slice(&lobe.weight.0);
+                out[3 + CHANNELS] = lobe.probability;
             }
-        });
-    });
-    Ok(())
+        }
+    })
+}
+
+/// [`each`] into an output of either type.
+fn reference_rows(
+    py: Python<'_>,
+    model: &dyn Scatter,
+    params: &[Source<'_>],
+    vectors: [&Source<'_>; 2],
+    width: usize,
+    out: Target<'_>,
+    run: impl Fn(&[f64], Vec3<f64>, Vec3<f64>, &mut [f64]) + Sync,
+) -> PyResult<usize> {
+    match out {
+        Target::Single(mut out) => {
+            let out = out.as_slice_mut().map_err(value_error)?;
+            let inputs = inputs(model, params, &vectors, rows_of(out, width)?)?;
+            Ok(py.detach(|| each(&inputs, width, out, &run)))
+        }
+        Target::Double(mut out) => {
+            let out = out.as_slice_mut().map_err(value_error)?;
+            let inputs = inputs(model, params, &vectors, rows_of(out, width)?)?;
+            Ok(py.detach(|| each(&inputs, width, out, &run)))
+        }
+    }
 }
