@@ -54,7 +54,10 @@ fn list() -> Result<Vec<TestBinary>, Error> {
         "--no-run",
         "--message-format=json-render-diagnostics",
     ]))?;
-    Ok(messages.lines().filter_map(parse).collect())
+    let mut binaries: Vec<_> = messages.lines().filter_map(parse).collect();
+    // cargo reports them as they are ready
+    binaries.sort_by(|a, b| (&a.package, &a.program).cmp(&(&b.package, &b.program)));
+    Ok(binaries)
 }
 
 /// The test program that a line of cargo's messages reports, if it reports one.
