@@ -6,21 +6,49 @@ use core::fmt;
 #[derive(Clone, Debug, PartialEq)]
 pub enum Error {
     /// The model has no formula: a measured table.
-    NoFormula { model: &'static str },
+    NoFormula {
+        /// The model's id.
+        model: &'static str,
+    },
     /// No part was asked for, or one was asked for twice.
-    Parts { asked: Vec<&'static str> },
+    Parts {
+        /// Names of the parts, as given.
+        asked: Vec<&'static str>,
+    },
     /// No language has this name.
-    UnknownLanguage { given: String },
+    UnknownLanguage {
+        /// The name that was given.
+        given: String,
+    },
     /// No part has this name.
-    UnknownPart { given: String },
+    UnknownPart {
+        /// The name that was given.
+        given: String,
+    },
     /// The formula has more operations than the exporter accepts.
-    TooLarge { nodes: usize, limit: usize },
+    TooLarge {
+        /// Operations of the formula.
+        nodes: usize,
+        /// The most that is accepted.
+        limit: usize,
+    },
     /// The formula has a longer chain of operations than the exporter accepts.
-    TooDeep { limit: u32 },
+    TooDeep {
+        /// The longest chain that is accepted.
+        limit: u32,
+    },
     /// The formula contains a number that no shading language can write.
-    NotFinite { value: f64 },
+    NotFinite {
+        /// The number.
+        value: f64,
+    },
     /// The shader library refused what Lesk made; a bug of Lesk.
-    Writer { language: &'static str, message: String },
+    Writer {
+        /// The language's name.
+        language: &'static str,
+        /// What the library said.
+        message: String,
+    },
 }
 
 impl fmt::Display for Error {

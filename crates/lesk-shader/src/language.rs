@@ -124,13 +124,16 @@ pub enum Product {
 /// How to export.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct Options {
+    /// Whose elementary functions to use.
     pub math: Math,
+    /// Functions, or a complete shader.
     pub product: Product,
 }
 
 /// Exported source.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Source {
+    /// Text, with a comment on top that says what it is.
     Text(String),
     /// SPIR-V words, little-endian.
     Binary(Vec<u8>),

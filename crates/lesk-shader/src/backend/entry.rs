@@ -22,6 +22,8 @@ pub(super) fn arguments(unit: &Unit) -> Vec<&'static str> {
 pub(super) fn targets(unit: &Unit) -> Vec<String> {
     let parts = |f: &Function| match f.part {
         crate::Part::Draw => vec!["draw_wi_pdf".to_owned(), "draw_weight_delta".to_owned()],
+        // `sample` is a keyword of GLSL
+        crate::Part::Sample => vec!["sampled".to_owned()],
         part => vec![part.name().to_owned()],
     };
     unit.functions.iter().flat_map(parts).collect()

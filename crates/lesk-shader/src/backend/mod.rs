@@ -12,7 +12,7 @@ mod tidy;
 mod wgsl;
 pub mod words;
 
-use crate::{Error, Function, Language, Product, Source, Unit};
+use crate::{Error, Function, Language, Part, Product, Source, Unit};
 use lower::{Lowered, Names};
 use naga::valid::{Capabilities, ModuleInfo, ValidationFlags, Validator};
 
@@ -49,11 +49,13 @@ fn writer_error(language: Language, error: &dyn core::error::Error) -> Error {
 
 /// Puts the names in place and drops what a reader does not need.
 fn readable(text: &str, lowered: Lowered, unit: &Unit) -> String {
-    let result = |function: &Function| match function.results[..] {
-        [(name, _)] => name.to_owned(),
-        _ => "drawn".to_owned(),
+    let result = |function: &Function| match function.part {
+        Part::Eval => "f",
+        Part::Pdf => "pdf",
+        Part::Sample => "sampled",
+        Part::Draw => "drawn",
     };
-    let calls: Vec<String> = unit.functions.iter().map(result).collect();
+    let calls: Vec<&str> = unit.functions.iter().map(result).collect();
     match lowered.names {
         Names::Placeholders(names) => tidy::tidy(text, &names, &calls),
         Names::Plain => text.to_owned(),

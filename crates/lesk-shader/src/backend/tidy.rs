@@ -26,7 +26,7 @@ fn resolved(word: &str, names: &[String]) -> Option<String> {
 }
 
 /// Makes a writer's text readable. `calls` names the results of the entry point's calls, in order.
-pub(super) fn tidy(text: &str, names: &[String], calls: &[String]) -> String {
+pub(super) fn tidy(text: &str, names: &[String], calls: &[&str]) -> String {
     let text = lines::direct_returns(text);
     let mut tokens = tokens::split(&text);
     let mut results: Vec<String> = Vec::new();
@@ -39,7 +39,7 @@ pub(super) fn tidy(text: &str, names: &[String], calls: &[String]) -> String {
                     results.len() - 1
                 });
                 if let Some(name) = calls.get(k) {
-                    token.text = name.clone().into();
+                    token.text = (*name).to_owned().into();
                 }
             }
             Kind::Word => {
