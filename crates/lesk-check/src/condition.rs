@@ -264,9 +264,7 @@ impl<'a> Parser<'a> {
 
     fn parameter(&self, name: &str) -> Result<Expr, Error> {
         match self.specs.iter().position(|spec| spec.name == name) {
-            Some(spec) => {
-                Ok(Expr::Param { spec, offset: flat_len(&self.specs[..spec]), kind: self.specs[spec].kind })
-            }
+            Some(spec) => Ok(Expr::Param { spec, offset: flat_len(&self.specs[..spec]), kind: self.specs[spec].kind }),
             None => {
                 let names: Vec<&str> = self.specs.iter().map(|spec| spec.name).collect();
                 let hint = format!("the parameters are {}", names.join(", "));

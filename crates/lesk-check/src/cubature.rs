@@ -1,6 +1,6 @@
 //! Adaptive integration over cells of the sphere.
 
-use crate::partition::{Cell, Place};
+use crate::partition::{Cell, Partition, Place};
 use lesk_math::{CHANNELS, Vec3};
 use std::collections::BinaryHeap;
 
@@ -24,6 +24,8 @@ struct Part {
     value: Values,
     error: f64,
     axis: usize,
+    /// Places within the cell where f is known, and the largest channel there.
+    probes: Vec<([f64; 2], f64)>,
 }
 
 impl PartialEq for Part {
@@ -49,32 +51,61 @@ impl Ord for Part {
 /// The rule is Genz and Malik's of degree 7 with its embedded one of degree 5 (*An adaptive algorithm for numerical
 /// integration over an N-dimensional rectangular region*, J. Comput. Appl. Math. 6, 1980); the part with the largest
 /// difference of the two is halved along the axis with the largest fourth difference. The difference estimates the
-/// error of the worse rule, so that for smooth functions the true error is far below it.
-pub fn integrate(cells: &[Cell], f: impl Fn(Vec3<f64>) -> Values, tolerance: f64, most: usize) -> Vec<Integral> {
-    let mut heap: BinaryHeap<Part> =
-        cells.iter().enumerate().map(|(owner, &cell)| measure(cell, owner, &f)).collect();
+/// error of the worse rule, so that for smooth functions the true error is far below it. A ridge between the points
+/// of the rule shows at the `probes`, directions where f matters: a part of which f at a probe times its area makes
+/// several times the integral is in error by that much. A difference between a part and its halves is shared out to them.
+pub fn integrate(
+    cells: &Partition,
+    f: impl Fn(Vec3<f64>) -> Values,
+    probes: &[Vec3<f64>],
+    tolerance: f64,
+    most: usize,
+) -> Vec<Integral> {
+    let mut known: Vec<Vec<([f64; 2], f64)>> = vec![Vec::new(); cells.cells.len()];
+    for &w in probes {
+        if let Some(cell) = cells.find(w) {
+            let at = Place::of(w).at;
+            known[cell].push((at, f(w).iter().fold(0.0, |m, x| x.abs().max(m))));
+        }
+    }
+    let first =
+        cells.cells.iter().zip(known).enumerate().map(|(owner, (&cell, probes))| measure(cell, owner, probes, &f));
+    // every cell is halved once, so that each has been compared with its halves
+    let mut heap: BinaryHeap<Part> = first.flat_map(|part| halve(part, &f)).collect();
     let mut error: f64 = heap.iter().map(|part| part.error).sum();
-    let mut spent = POINTS * cells.len();
+    let mut spent = 3 * POINTS * heap.len() / 2;
     let mut done = Vec::new();
     while error > tolerance && spent < most {
         let Some(part) = heap.pop() else { break };
+        error -= part.error;
         if part.error.is_nan() || part.cell.is_tiny(part.axis) {
-            error -= part.error;
             done.push(part);
             continue;
         }
-        let halves = part.cell.halves(part.axis).map(|half| measure(half, part.owner, &f));
-        error += halves[0].error + halves[1].error - part.error;
+        let halves = halve(part, &f);
+        error += halves[0].error + halves[1].error;
         spent += 2 * POINTS;
         heap.extend(halves);
     }
-    let mut integrals = vec![Integral::default(); cells.len()];
+    let mut integrals = vec![Integral::default(); cells.cells.len()];
     for part in heap.into_iter().chain(done) {
         let integral = &mut integrals[part.owner];
         integral.error += part.error;
         (0..CHANNELS).for_each(|c| integral.value[c] += part.value[c]);
     }
     integrals
+}
+
+/// Halves a part. What the halves found and the whole did not see, they may have missed themselves.
+fn halve(mut part: Part, f: &impl Fn(Vec3<f64>) -> Values) -> [Part; 2] {
+    let [a, b] = part.cell.halves(part.axis);
+    let at = b.lo[part.axis];
+    let (low, high) = std::mem::take(&mut part.probes).into_iter().partition(|probe| probe.0[part.axis] < at);
+    let mut halves = [measure(a, part.owner, low, f), measure(b, part.owner, high, f)];
+    let surprise = |c: usize| (halves[0].value[c] + halves[1].value[c] - part.value[c]).abs();
+    let surprise = (0..CHANNELS).map(surprise).fold(0.0, f64::max);
+    halves.iter_mut().for_each(|half| half.error += SAFETY * 0.25 * surprise);
+    halves
 }
 
 /// The sum over cells.
@@ -106,8 +137,15 @@ const SEVEN: [f64; 5] = [
 const FIVE: [f64; 4] =
     [(729.0 - 950.0 * 2.0 + 50.0 * 4.0) / 729.0, 245.0 / 486.0, (265.0 - 100.0 * 2.0) / 1458.0, 25.0 / 729.0];
 
+/// The differences are multiplied by this: at 600 random lobes of the models the true error was at most 2.5 times the
+/// plain estimate where that was 2e-4.
+const SAFETY: f64 = 3.0;
+
+/// Where f at a probe exceeds the mean of a cell by more than this factor, the rule has missed something.
+const MISSED: f64 = 3.0;
+
 /// Applies the rule to one cell.
-fn measure(cell: Cell, owner: usize, f: &impl Fn(Vec3<f64>) -> Values) -> Part {
+fn measure(cell: Cell, owner: usize, probes: Vec<([f64; 2], f64)>, f: &impl Fn(Vec3<f64>) -> Values) -> Part {
     let half = [0.5 * (cell.hi[0] - cell.lo[0]), 0.5 * (cell.hi[1] - cell.lo[1])];
     let sample = |u: f64, v: f64| -> Values {
         let at = [cell.lo[0] + half[0] * (1.0 + u), cell.lo[1] + half[1] * (1.0 + v)];
@@ -127,7 +165,7 @@ fn measure(cell: Cell, owner: usize, f: &impl Fn(Vec3<f64>) -> Values) -> Part {
         let four = SEVEN[0] * centre[c] + SEVEN[1] * sum_near + SEVEN[2] * sum_far;
         value[c] = area * (four + SEVEN[3] * outer[c] + SEVEN[4] * inner[c]);
         let five = FIVE[0] * centre[c] + FIVE[1] * sum_near + FIVE[2] * sum_far + FIVE[3] * outer[c];
-        let difference = (value[c] - area * five).abs();
+        let difference = SAFETY * (value[c] - area * five).abs();
         error = if difference.is_nan() { f64::NAN } else { error.max(difference) };
         for axis in 0..2 {
             // (9/70) / (9/10) = 1/7
@@ -135,21 +173,23 @@ fn measure(cell: Cell, owner: usize, f: &impl Fn(Vec3<f64>) -> Values) -> Part {
             fourth[axis] = fourth[axis].max(bend.abs());
         }
     }
-    let longer = usize::from(half[1] > 3.0 * half[0]);
-    let axis = if fourth[0] == fourth[1] { longer } else { usize::from(fourth[1] > fourth[0]) };
-    Part { cell, owner, value, error, axis }
+    let middle = 0.5 * (cell.lo[0] + cell.hi[0]);
+    let highest = probes.iter().fold(0.0f64, |m, probe| m.max(probe.1));
+    let missed = highest * area * 2.0 * middle - MISSED * value.iter().fold(0.0f64, |m, x| m.max(x.abs()));
+    let wider = usize::from(half[1] * middle > half[0]);
+    let axis = if missed > error || fourth[0] == fourth[1] { wider } else { usize::from(fourth[1] > fourth[0]) };
+    Part { cell, owner, value, error: if missed > error { missed } else { error }, axis, probes }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::partition::Partition;
     use lesk_bsdf::model::Domain;
     use std::f64::consts::{PI, TAU};
 
     fn over(domain: Domain, f: impl Fn(Vec3<f64>) -> f64, tolerance: f64) -> Integral {
-        let cells = Partition::new(domain, &[], 1).cells;
-        total(&integrate(&cells, |w| [f(w); CHANNELS], tolerance, 1_000_000))
+        let cells = Partition::new(domain, &[], 1);
+        total(&integrate(&cells, |w| [f(w); CHANNELS], &[], tolerance, 1_000_000))
     }
 
     #[test]
@@ -168,6 +208,20 @@ mod tests {
         let (k, axis) = (200.0, Vec3::from([0.6, 0.0, -0.8]));
         let got = over(Domain::BothSides, |w| (k * (w.dot(axis) - 1.0)).exp(), 1e-8);
         assert!((got.value[0] - TAU / k).abs() <= got.error + 1e-12, "{got:?}");
+    }
+
+    #[test]
+    fn a_peak_between_the_points_of_the_rule_is_found_from_probes() {
+        // the integral of exp((w.a - 1) / s^2) / s^2 is 2 pi (1 - exp(-2 / s^2)) for any axis a
+        let (s, axis) = (1e-5, Vec3::from([0.48, 0.36, 0.8]));
+        let f = |w: Vec3<f64>| [((w.dot(axis) - 1.0) / (s * s)).exp() / (s * s); CHANNELS];
+        let cells = Partition::new(Domain::Upper, &[], 1);
+        assert_eq!(total(&integrate(&cells, f, &[], 1e-4, 100_000)).value[0], 0.0);
+        // the middle and, in the neighbouring cells that the flanks reach, places one width aside
+        let aside = |x: f64, y: f64| (axis + Vec3::from([x, y, 0.0]) * s).normalize();
+        let probes = [axis, aside(1.0, 0.0), aside(-1.0, 0.0), aside(0.0, 1.0), aside(0.0, -1.0)];
+        let got = total(&integrate(&cells, f, &probes, 1e-4, 100_000));
+        assert!((got.value[0] - TAU).abs() <= got.error + 1e-9, "{got:?}");
     }
 
     #[test]

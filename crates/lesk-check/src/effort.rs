@@ -40,14 +40,14 @@ impl Effort {
     pub fn budget(self) -> Budget {
         match self {
             Effort::Quick => Budget {
-                pairs: 10_000,
-                segments: 2_000,
-                power_params: 32,
-                power_directions: 6,
-                power_climbs: 4,
-                power_steps: 16,
-                histograms: 24,
-                draws: 20_000,
+                pairs: 20_000,
+                segments: 6_000,
+                power_params: 64,
+                power_directions: 8,
+                power_climbs: 6,
+                power_steps: 24,
+                histograms: 40,
+                draws: 30_000,
                 grid: 20,
             },
             Effort::Full => Budget {

@@ -4,9 +4,9 @@ use crate::cubature::{Integral, Values, integrate};
 use crate::directions;
 use crate::effort::Budget;
 use crate::finding::Finding;
-use crate::partition::Partition;
+use crate::partition::{Partition, with_halo};
 use crate::random::Random;
-use crate::reciprocity::way_back;
+use crate::reciprocity::{delta_rounding, way_back};
 use crate::region::Region;
 use crate::subject::{Case, Subject};
 use lesk_math::{CHANNELS, Vec3, vec3};
@@ -21,13 +21,15 @@ pub struct Accuracy {
     pub tolerance: f64,
     /// The most evaluations of f.
     pub evaluations: usize,
+    /// Draws that show where f is large.
+    pub hints: usize,
 }
 
 impl Accuracy {
     /// To find candidates.
-    pub const SCAN: Accuracy = Accuracy { tolerance: 2e-3, evaluations: 20_000 };
+    pub const SCAN: Accuracy = Accuracy { tolerance: 5e-3, evaluations: 20_000, hints: 64 };
     /// To judge, to tabulate.
-    pub const FINE: Accuracy = Accuracy { tolerance: 1e-5, evaluations: 1_000_000 };
+    pub const FINE: Accuracy = Accuracy { tolerance: 3e-5, evaluations: 1_000_000, hints: 1024 };
 }
 
 /// Scattered power, or a directional albedo, by side.
@@ -74,6 +76,7 @@ pub fn power_from(case: &Case, wi: Vec3<f64>, accuracy: Accuracy) -> Power {
         let ratio = (case.index(wi) / case.index(lobe.wi)).powi(2);
         let value = weight.0.map(|w| w * ratio);
         power.add(lobe.wi.z * wi.z > 0.0, value);
+        power.error += delta_rounding(case, lobe.wi, wi) * ratio;
         (0..CHANNELS).for_each(|c| power.delta[c] += value[c]);
     }
     power
@@ -89,22 +92,20 @@ pub fn albedo(case: &Case, wo: Vec3<f64>, accuracy: Accuracy) -> Power {
     power
 }
 
-/// Directions that seed the cells.
-const HINTS: usize = 64;
-
 fn integral(case: &Case, w: Vec3<f64>, accuracy: Accuracy, f: impl Fn(Vec3<f64>) -> Values) -> Power {
     let mut rng = Random::new("hints", 0);
-    let mut hints = vec![vec3(-w.x, -w.y, w.z), w];
-    for _ in 0..HINTS {
+    let mut hints = vec![w, vec3(-w.x, -w.y, w.z)];
+    for _ in 0..accuracy.hints {
         let s = case.draw(w, rng.unit3());
         if s.pdf > 0.0 && s.delta == 0.0 {
             hints.push(s.wi);
         }
     }
-    let cells = Partition::new(case.domain(), &hints, 4).cells;
-    let integrals = integrate(&cells, f, accuracy.tolerance, accuracy.evaluations);
+    let hints = with_halo(hints);
+    let cells = Partition::new(case.domain(), &hints, 4);
+    let integrals = integrate(&cells, f, &hints, accuracy.tolerance, accuracy.evaluations);
     let mut power = Power::default();
-    for (cell, Integral { value, error }) in cells.iter().zip(integrals) {
+    for (cell, Integral { value, error }) in cells.cells.iter().zip(integrals) {
         power.add(cell.below == (w.z < 0.0), value);
         power.error += error;
     }

@@ -28,11 +28,10 @@ const ANGLES: [f64; 16] =
 
 /// The albedo curves of a model at these parameters, azimuth 0; one per side.
 pub fn curves(case: &Case, label: &str) -> Vec<Curve> {
-    let accuracy = Accuracy { tolerance: 2e-4, evaluations: 100_000 };
+    let accuracy = Accuracy { tolerance: 2e-4, evaluations: 100_000, hints: 256 };
     let curve = |below: bool| {
         let label = if below { format!("{label}, from below") } else { label.to_owned() };
-        let mut curve =
-            Curve { label, theta_deg: vec![], reflected: vec![], transmitted: vec![], error: 0.0 };
+        let mut curve = Curve { label, theta_deg: vec![], reflected: vec![], transmitted: vec![], error: 0.0 };
         for theta in ANGLES.map(|theta| if below { 180.0 - theta } else { theta }) {
             let power = albedo(case, from_degrees([theta, 0.0]), accuracy);
             let mean = |v: [f64; CHANNELS]| v.iter().sum::<f64>() / CHANNELS as f64;

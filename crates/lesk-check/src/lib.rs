@@ -41,5 +41,5 @@ pub use effort::{Budget, Effort};
 pub use error::Error;
 pub use html::html;
 pub use report::{Place, Report, Row, Verdict, json};
-pub use runner::{check, check_all, check_subject, measure, worst};
+pub use runner::{check, check_all, check_property, check_subject, measure, worst};
 pub use text::text;

@@ -104,7 +104,7 @@ impl Partition {
     fn grow(&mut self, cell: Cell, places: Vec<[f64; 2]>, most: usize, depth: usize) -> usize {
         let size = [cell.hi[0] - cell.lo[0], (cell.hi[1] - cell.lo[1]) / TAU];
         let coarse = size[0] > 0.5 || size[1] > 0.25;
-        let axis = if coarse { usize::from(size[1] > 0.25) } else { tightest(&cell, &places) };
+        let axis = if coarse { usize::from(size[1] > 0.25) } else { axis_to_halve(&cell, &places) };
         if depth >= MAX_DEPTH || cell.is_tiny(axis) || !coarse && places.len() <= most {
             self.cells.push(cell);
             self.nodes.push(Node::Leaf(self.cells.len() - 1));
@@ -133,13 +133,27 @@ impl Partition {
     }
 }
 
-/// The axis along which the places lie closest together, compared with the cell.
-fn tightest(cell: &Cell, places: &[[f64; 2]]) -> usize {
+/// The directions and, around them, each one's mirror image about the one before: a halo a lobe's width wide, so that
+/// its flanks lie in small cells as well.
+pub fn with_halo(mut directions: Vec<Vec3<f64>>) -> Vec<Vec3<f64>> {
+    let halo: Vec<Vec3<f64>> = directions.windows(2).map(|pair| pair[1].reflect(pair[0])).collect();
+    directions.extend(halo);
+    directions
+}
+
+/// The axis along which to halve: that along which the middle half of the places is narrower by far, compared with the
+/// cell, or else the longer one on the sphere.
+fn axis_to_halve(cell: &Cell, places: &[[f64; 2]]) -> usize {
     let spread = |axis: usize| {
-        let ends = places.iter().fold((f64::MAX, f64::MIN), |(lo, hi), p| (lo.min(p[axis]), hi.max(p[axis])));
-        (ends.1 - ends.0) / (cell.hi[axis] - cell.lo[axis])
+        let mut at: Vec<f64> = places.iter().map(|p| p[axis]).collect();
+        at.sort_by(f64::total_cmp);
+        let quartile = |q: usize| at.get(at.len() * q / 4).copied().unwrap_or(0.0);
+        (quartile(3) - quartile(1)) / (cell.hi[axis] - cell.lo[axis])
     };
-    usize::from(spread(1) < spread(0))
+    let (r, phi) = (spread(0), spread(1));
+    let middle = 0.5 * (cell.lo[0] + cell.hi[0]);
+    let longer = usize::from((cell.hi[1] - cell.lo[1]) * middle > cell.hi[0] - cell.lo[0]);
+    if r.max(phi) > 2.0 * r.min(phi) { usize::from(phi < r) } else { longer }
 }
 
 #[cfg(test)]

@@ -1,7 +1,7 @@
 //! `Reciprocal`: f(i, o) / eta_o^2 = f(o, i) / eta_i^2, for the continuous part and for delta weights.
 
 use crate::finding::Finding;
-use crate::subject::{Case, largest};
+use crate::subject::{Case, ULPS, largest, neighbours};
 use lesk_math::Vec3;
 
 /// What the value means.
@@ -33,29 +33,38 @@ pub fn at(case: &Case, wi: Vec3<f64>, wo: Vec3<f64>) -> Finding {
     })
 }
 
-/// Compares the weight of each delta lobe with that of the way back.
+/// Compares each delta lobe with that of the way back. A delta lobe of weight W towards `wo` is the f
+/// W delta(wi - lobe) / |cos wi|, and |cos| dw eta^2 is the same at both ends of a refraction, so that reciprocity of f
+/// is W (eta_i / eta_o)^2 = W' (eta_o / eta_i)^2: both are the share of power that takes the path.
 fn delta(case: &Case, wo: Vec3<f64>) -> Option<Finding> {
     let mut worst: Option<Finding> = None;
     for lobe in case.delta(wo) {
-        let back = way_back(case, lobe.wi, wo);
-        let (ni, no) = (case.index(lobe.wi).powi(2), case.index(wo).powi(2));
-        let finding = match back {
-            Some(weight) => {
-                let (there, back) = (lobe.weight * (1.0 / no), weight * (1.0 / ni));
-                let scale = largest(there).max(largest(back));
-                // the direction of the lobe is rounded, and Fresnel terms have square-root ends
-                let allowed = case.subject.epsilon().sqrt();
-                Finding::new(case, lobe.wi, wo, largest(there - back) / scale.max(1e-300), allowed)
+        let squeeze = (case.index(lobe.wi) / case.index(wo)).powi(2);
+        let finding = match way_back(case, lobe.wi, wo) {
+            Some(back) => {
+                let (there, back) = (lobe.weight * squeeze, back * (1.0 / squeeze));
+                let scale = largest(there).max(largest(back)).max(underflow(case));
+                let rounding = delta_rounding(case, lobe.wi, wo) / squeeze;
+                let allowed = ULPS * case.subject.epsilon() + rounding / scale;
+                Finding::new(case, lobe.wi, wo, largest(there - back) / scale, allowed).with_note("delta lobe")
             }
             None => Finding::new(case, lobe.wi, wo, 1.0, 0.0).with_note("no delta lobe leads back"),
         };
-        let finding = Finding { note: format!("delta lobe; {}", finding.note), ..finding };
         worst = Some(match worst {
             Some(so_far) => so_far.worse(finding),
             None => finding,
         });
     }
     worst
+}
+
+/// How far the weight of the lobe back may be off because the direction `w` of the lobe is rounded: near total
+/// reflection Fresnel's terms rise like a square root.
+pub fn delta_rounding(case: &Case, w: Vec3<f64>, wo: Vec3<f64>) -> f64 {
+    let Some(weight) = way_back(case, w, wo) else { return 0.0 };
+    let around = neighbours(w, ULPS * case.subject.epsilon());
+    let change = around.iter().filter_map(|&v| way_back(case, v, wo)).map(|other| largest(other - weight));
+    change.fold(0.0, f64::max)
 }
 
 /// The weight of the delta lobe from `wo` towards the viewer `w`, where there is one.

@@ -74,6 +74,13 @@ impl Region {
         params.to_vec()
     }
 
+    /// The parameters on the other side of `centre`, clamped to the legal ranges.
+    pub fn mirrored(&self, params: &[f64], centre: &[f64]) -> Vec<f64> {
+        let ranges = self.specs.iter().flat_map(|spec| vec![spec.range; spec.len()]);
+        let entries = params.iter().zip(centre).zip(ranges);
+        entries.map(|((p, c), [lo, hi])| (2.0 * c - p).clamp(lo, hi)).collect()
+    }
+
     /// Moves the table into the region by its equations, if need be; whether it lies there.
     fn settle(&self, params: &mut [f64]) -> bool {
         match &self.condition {

@@ -46,7 +46,7 @@ pub fn check_subject(subject: &dyn Subject, effort: Effort) -> Report {
     let (model, budget) = (subject.model(), effort.budget());
     let mut rows = Vec::new();
     for property in Property::ALL {
-        property_rows(subject, property, &budget, &mut rows);
+        rows.extend(check_property(subject, property, &budget));
     }
     rows.extend(model.limits.iter().map(|limit| timed(|| limit_row(subject, limit, &budget))));
     Report {
@@ -102,21 +102,23 @@ pub fn measure(property: Property) -> &'static str {
     }
 }
 
-fn property_rows(subject: &dyn Subject, property: Property, budget: &Budget, rows: &mut Vec<Row>) {
+/// Checks what a subject says about one property: its claims, its counterexamples, or that it says nothing.
+pub fn check_property(subject: &dyn Subject, property: Property, budget: &Budget) -> Vec<Row> {
     let model = subject.model();
     let examples: Vec<&Counterexample> = model.counterexamples.iter().filter(|e| e.property == property).collect();
     let claims: Vec<&Claim> = model.claims.iter().filter(|claim| claim.property == property).collect();
-    let start = rows.len();
+    let mut rows = Vec::new();
     for claim in &claims {
-        claim_rows(subject, claim, examples.is_empty(), budget, rows);
+        claim_rows(subject, claim, examples.is_empty(), budget, &mut rows);
     }
     for example in &examples {
         rows.push(timed(|| example_row(subject, example, &claims, budget)));
     }
-    if rows.len() == start {
+    if rows.is_empty() {
         let note = "neither claimed nor refuted: state a claim or store a counterexample";
         rows.push(failed(property.name(), None, measure(property), note.to_owned()));
     }
+    rows
 }
 
 /// The rows of a claim: tested where it should hold, and, unless a stored counterexample will do, refuted elsewhere.
@@ -185,7 +187,8 @@ fn contradiction(subject: &dyn Subject, params: &[f64], claims: &[&Claim]) -> Op
 
 fn limit_row(subject: &dyn Subject, limit: &Limit, budget: &Budget) -> Row {
     let at: Vec<String> = limit.at.iter().map(|(name, value)| format!("{name} = {value}")).collect();
-    let text = if at.is_empty() { format!("is {}", limit.equals) } else { format!("{}: {}", at.join(", "), limit.equals) };
+    let text =
+        if at.is_empty() { format!("is {}", limit.equals) } else { format!("{}: {}", at.join(", "), limit.equals) };
     let mut rng = Random::new(&format!("{} limit {text}", subject.id()), 0);
     match limits::worst(subject, limit, &mut rng, budget.pairs / 4) {
         Ok(finding) => {

@@ -19,10 +19,10 @@ pub const MEASURE: &str = "jump of the derivative of f along a segment, relative
 const JUMP: f64 = 1e-3;
 
 /// Zooms, each by a factor of `POINTS` / 2.
-const LEVELS: usize = 9;
+const LEVELS: usize = 8;
 const POINTS: usize = 16;
 
-/// A jump that shrinks by more than this per zoom is the curvature of a C1 function (8 zooms of a factor 8: 1/8 where
+/// A jump that shrinks by more than this per zoom is the curvature of a C1 function (a zoom is a factor 8: 1/8 where
 /// the gradient is differentiable, 0.35 at |x|^1.5, 0.7 to 1 at a kink).
 const STAYS: f64 = 0.45;
 
@@ -77,8 +77,14 @@ fn kink(subject: &dyn Subject, from: &Point, to: &Point) -> Option<Kink> {
         (lo, hi) = (lo + h * (at - 1) as f64, lo + h * (at + 1) as f64);
     }
     // relative to f here, or to a millionth of the largest f of the segment where f vanishes
-    let jump = jumps[levels(subject) - 1] / scale.max(1e-6 * whole).max(1e-100);
-    (stays >= 3 && jump > JUMP || jump.is_nan()).then(|| Kink { jump, ends: [from.lerp(to, lo), from.lerp(to, hi)] })
+    let scale = scale.max(1e-6 * whole).max(1e-100);
+    let jump = jumps[levels(subject) - 1] / scale;
+    let found = stays >= 3 && jump > JUMP || jump.is_nan();
+    let ends = [from.lerp(to, lo), from.lerp(to, hi)];
+    // the four values of a second difference are rounded
+    let noise =
+        |end: &Point| 4.0 * Case::new(subject, &end.params).rounding(end.wi, end.wo) / (0.5 * (hi - lo) * scale);
+    (found && !(jump < JUMP + noise(&ends[0]).max(noise(&ends[1])))).then(|| Kink { jump, ends })
 }
 
 /// Zooms until h nears the root of epsilon, below which differences are rounding.
@@ -140,15 +146,20 @@ pub fn at(case: &Case, wi: Vec3<f64>, wo: Vec3<f64>, rng: &mut Random) -> Findin
     let region = Region::all(case.subject.specs());
     let mut worst = finding(case.subject, &point, 0.0, "");
     for round in 0..96 {
-        let step = |rng: &mut Random| vec3(rng.within(-0.02, 0.02), rng.within(-0.02, 0.02), rng.within(-0.02, 0.02));
-        let (di, d_o) = (step(rng), step(rng));
+        // so short that no direction changes sides
+        let step = |rng: &mut Random, w: Vec3<f64>| {
+            let most = (0.25 * w.z.abs()).min(0.02);
+            vec3(rng.within(-most, most), rng.within(-most, most), rng.within(-most, most))
+        };
+        let (di, d_o) = (step(rng, wi), step(rng, wo));
         let (di, d_o) = match round % 3 {
             0 => (di, Vec3::ZERO),
             1 => (Vec3::ZERO, d_o),
             _ => (di, d_o),
         };
-        let from = Point { params: point.params.clone(), wi: (wi - di).normalize(), wo: (wo - d_o).normalize() };
         let params = if round % 4 == 3 { region.near(case.params, rng, 0.1) } else { point.params.clone() };
+        let back = region.mirrored(&params, case.params);
+        let from = Point { params: back, wi: (wi - di).normalize(), wo: (wo - d_o).normalize() };
         let to = Point { params, wi: (wi + di).normalize(), wo: (wo + d_o).normalize() };
         if let Some(kink) = kink(case.subject, &from, &to) {
             worst = worst.worse(finding(case.subject, &point, kink.jump, &toward(&kink.ends[0], &kink.ends[1])));

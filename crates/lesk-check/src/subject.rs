@@ -4,7 +4,7 @@ use lesk_bsdf::Scatter;
 use lesk_bsdf::bsdf::{Delta, Sample};
 use lesk_bsdf::model::{Domain, Model};
 use lesk_bsdf::params::{ParamSpec, flat_len, offset_of};
-use lesk_math::{Color, Real, Vec3};
+use lesk_math::{Color, Real, Vec3, vec3};
 
 /// A model as the checks see it. [`Reference`] makes one of any [`Scatter`]; a mutant is one that wraps another.
 pub trait Subject: Sync {
@@ -143,22 +143,31 @@ impl<'a> Case<'a> {
         offset_of(self.subject.specs(), "ior").map_or(1.0, |at| self.params[at])
     }
 
-    /// How far f(wi, wo) may be off by rounding: 64 ulp of the value, and of its change when the directions move by
-    /// as much (the condition, from differences over the root of epsilon).
+    /// How far f(wi, wo) may be off by rounding: by what it changes when the directions, length included, move by
+    /// [`ULPS`] ulp, measured at that step and from differences over the root of epsilon.
     pub fn rounding(&self, wi: Vec3<f64>, wo: Vec3<f64>) -> f64 {
-        let f = self.eval(wi, wo);
         let eps = self.subject.epsilon();
-        let step = eps.sqrt();
-        let mut condition = 0.0f64;
-        for axis in [Vec3::from([1.0, 0.0, 0.0]), Vec3::from([0.0, 1.0, 0.0]), Vec3::Z] {
-            for sign in [-step, step] {
-                let moved = |w: Vec3<f64>| (w + (axis - w * w.dot(axis)) * sign).normalize();
-                condition = condition.max(largest(self.eval(moved(wi), wo) - f) / step);
-                condition = condition.max(largest(self.eval(wi, moved(wo)) - f) / step);
+        let f = self.eval(wi, wo);
+        let mut change = ULPS * eps * largest(f);
+        // the differences at the small step are a sample of the rounding itself, of which the largest is wanted
+        for (step, factor) in [(ULPS * eps, 4.0), (eps.sqrt(), ULPS * eps.sqrt())] {
+            for (vi, vo) in
+                neighbours(wi, step).map(|v| (v, wo)).into_iter().chain(neighbours(wo, step).map(|v| (wi, v)))
+            {
+                change = change.max(factor * largest(self.eval(vi, vo) - f));
             }
         }
-        64.0 * eps * (largest(f) + condition)
+        change
     }
+}
+
+/// Roundings of the inputs that a formula may amplify before its result counts as wrong.
+pub const ULPS: f64 = 128.0;
+
+/// Directions around `w` at distance `step`: along the axes, and longer and shorter.
+pub fn neighbours(w: Vec3<f64>, step: f64) -> [Vec3<f64>; 8] {
+    let [x, y, z] = [vec3(1.0, 0.0, 0.0), vec3(0.0, 1.0, 0.0), Vec3::Z].map(|axis| (axis - w * w.dot(axis)) * step);
+    [w + x, w - x, w + y, w - y, w + z, w - z, w * (1.0 + step), w * (1.0 - step)]
 }
 
 /// The largest magnitude of the channels; NaN if one is.
