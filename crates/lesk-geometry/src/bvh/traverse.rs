@@ -79,7 +79,7 @@ impl Slabs {
             s.inverse[k] = inverse;
             s.near_add[k] = add - pad * inverse.abs();
             s.far_add[k] = add + pad * inverse.abs();
-            s.near_row[k] = if d < 0.0 { k + 3 } else { k };
+            s.near_row[k] = 2 * k + (d < 0.0) as usize;
         }
         s
     }
@@ -116,7 +116,7 @@ impl BoxTest for Portable {
                 };
                 let inverse = F4::splat(s.inverse[k]);
                 near = (row(s.near_row[k]) * inverse + F4::splat(s.near_add[k])).max(near);
-                far = (row((s.near_row[k] + 3) % 6) * inverse + F4::splat(s.far_add[k])).min(far);
+                far = (row(s.near_row[k] ^ 1) * inverse + F4::splat(s.far_add[k])).min(far);
             }
             mask |= near.le(far) << (4 * half);
             entry[4 * half..4 * half + 4].copy_from_slice(&near.to_array());
@@ -137,7 +137,6 @@ pub(super) mod avx2 {
         near_add: [__m256; 3],
         far_add: [__m256; 3],
         near_row: [usize; 3],
-        far_row: [usize; 3],
     }
 
     impl BoxTest for Wide {
@@ -150,7 +149,6 @@ pub(super) mod avx2 {
                 near_add: splat(s.near_add),
                 far_add: splat(s.far_add),
                 near_row: s.near_row,
-                far_row: s.near_row.map(|r| (r + 3) % 6),
             }
         }
 
@@ -161,7 +159,7 @@ pub(super) mod avx2 {
             let mask = unsafe {
                 let row = |r: usize| _mm256_load_ps(node.bounds.get_unchecked(r).as_ptr());
                 let near = |k: usize| _mm256_fmadd_ps(row(self.near_row[k]), self.inverse[k], self.near_add[k]);
-                let far = |k: usize| _mm256_fmadd_ps(row(self.far_row[k]), self.inverse[k], self.far_add[k]);
+                let far = |k: usize| _mm256_fmadd_ps(row(self.near_row[k] ^ 1), self.inverse[k], self.far_add[k]);
                 let enter =
                     _mm256_max_ps(_mm256_max_ps(near(0), near(1)), _mm256_max_ps(near(2), _mm256_set1_ps(t_min)));
                 let leave = _mm256_min_ps(_mm256_min_ps(far(0), far(1)), _mm256_min_ps(far(2), _mm256_set1_ps(t_max)));
@@ -190,60 +188,50 @@ impl Others for NoOthers {
 }
 
 /// Children still to visit, each as the bits of its entry distance above its number: distances are not negative, so
-/// that the larger word is the farther child.
-struct Stack {
-    words: [MaybeUninit<u64>; STACK],
-    len: usize,
-}
-
-impl Stack {
-    #[inline(always)]
-    fn new() -> Self {
-        Stack { words: [const { MaybeUninit::uninit() }; STACK], len: 0 }
-    }
-
-    #[inline(always)]
-    fn push(&mut self, word: u64) {
-        debug_assert!(self.len < STACK);
-        // SAFETY: at most 7 words wait per level and 8 at the last (`STACK`); the builder bounds the levels
-        unsafe { self.words.get_unchecked_mut(self.len).write(word) };
-        self.len += 1;
-    }
-
-    /// Puts a word into its place above `base`, nearest on top.
-    #[inline(always)]
-    fn insert(&mut self, base: usize, word: u64) {
-        let mut k = self.len;
-        self.push(word);
-        // SAFETY: words below `len` have been written
-        unsafe {
-            while k > base && self.words.get_unchecked(k - 1).assume_init() < word {
-                let moved = self.words.get_unchecked(k - 1).assume_init();
-                self.words.get_unchecked_mut(k).write(moved);
-                k -= 1;
-            }
-            self.words.get_unchecked_mut(k).write(word);
-        }
-    }
-
-    /// The next child that is entered before `limit`.
-    #[inline(always)]
-    fn pop(&mut self, limit: f32) -> Option<Child> {
-        while self.len > 0 {
-            self.len -= 1;
-            // SAFETY: words below the old `len` have been written
-            let word = unsafe { self.words.get_unchecked(self.len).assume_init() };
-            if f32::from_bits((word >> 32) as u32) <= limit {
-                return Some(Child(word as u32));
-            }
-        }
-        None
-    }
-}
+/// that the larger word is the farther child. The count is kept apart, where it can stay in a register.
+type Stack = [MaybeUninit<u64>; STACK];
 
 #[inline(always)]
 fn word(entry: f32, child: Child) -> u64 {
     (entry.to_bits() as u64) << 32 | child.0 as u64
+}
+
+#[inline(always)]
+fn push(stack: &mut Stack, len: &mut usize, word: u64) {
+    debug_assert!(*len < STACK);
+    // SAFETY: at most 7 words wait per level and 8 at the last (`STACK`); the builder bounds the levels
+    unsafe { stack.get_unchecked_mut(*len).write(word) };
+    *len += 1;
+}
+
+/// Puts a word into its place above `base`, nearest on top.
+#[inline(always)]
+fn insert(stack: &mut Stack, len: &mut usize, base: usize, word: u64) {
+    let mut k = *len;
+    push(stack, len, word);
+    // SAFETY: words below `len` have been written
+    unsafe {
+        while k > base && stack.get_unchecked(k - 1).assume_init() < word {
+            let moved = stack.get_unchecked(k - 1).assume_init();
+            stack.get_unchecked_mut(k).write(moved);
+            k -= 1;
+        }
+        stack.get_unchecked_mut(k).write(word);
+    }
+}
+
+/// The next child that is entered before `limit`.
+#[inline(always)]
+fn pop(stack: &Stack, len: &mut usize, limit: f32) -> Option<Child> {
+    while *len > 0 {
+        *len -= 1;
+        // SAFETY: words below the old `len` have been written
+        let word = unsafe { stack.get_unchecked(*len).assume_init() };
+        if f32::from_bits((word >> 32) as u32) <= limit {
+            return Some(Child(word as u32));
+        }
+    }
+    None
 }
 
 /// Finds the nearest hit, or with `ANY` some hit; says whether `best` was improved.
@@ -260,32 +248,29 @@ pub(super) fn walk<B: BoxTest, O: Others, const ANY: bool>(
     }
     let boxes = B::new(&Slabs::new(ray, tree.reach));
     let shear = Shear::new(ray.o, ray.d);
-    let mut stack = Stack::new();
+    let (nodes, blocks) = (tree.nodes.as_slice(), tree.blocks.as_slice());
+    let mut stack: Stack = [const { MaybeUninit::uninit() }; STACK];
+    let mut len = 0;
     let mut current = Child::node(0);
     let mut found = None;
     let mut improved = false;
+    // copies that stay in registers
+    let (t_min, mut limit) = (ray.t_min, best.t);
     loop {
         if current.is_node() {
             // SAFETY: the builder wrote only numbers of existing nodes and blocks
-            let node = unsafe { tree.nodes.get_unchecked(current.0 as usize) };
-            let (mask, entry) = boxes.boxes(node, ray.t_min, best.t);
-            if let Some(next) = choose::<ANY>(node, mask, &entry, &mut stack) {
+            let node = unsafe { nodes.get_unchecked(current.0 as usize) };
+            let (mask, entry) = boxes.boxes(node, t_min, limit);
+            if let Some(next) = choose::<ANY>(node, mask, &entry, &mut stack, &mut len) {
                 current = next;
                 continue;
             }
-        } else if current.is_other() {
-            if others.visit(current.other_index(), best) {
-                (improved, found) = (true, None);
-                if ANY {
-                    return true;
-                }
-            }
-        } else {
+        } else if !current.is_other() {
             let (first, count) = current.block_range();
             for index in first..first + count {
                 // SAFETY: as above
-                let block = unsafe { tree.blocks.get_unchecked(index) };
-                let lanes = intersect(block, &shear, ray.t_min, best.t);
+                let block = unsafe { blocks.get_unchecked(index) };
+                let lanes = intersect(block, &shear, t_min, limit);
                 let mut mask = lanes.mask;
                 while mask != 0 {
                     let lane = (mask.trailing_zeros() & 3) as usize;
@@ -294,29 +279,39 @@ pub(super) fn walk<B: BoxTest, O: Others, const ANY: bool>(
                         if ANY {
                             return true;
                         }
-                        best.t = lanes.t[lane];
-                        best.source = source;
-                        best.id = block.id[lane];
+                        (best.t, best.source, best.id) = (lanes.t[lane], source, block.id[lane]);
+                        limit = best.t;
                         found = Some((index, lane));
                         improved = true;
                     }
                 }
             }
+        } else if others.visit(current.other_index(), best) {
+            if ANY {
+                return true;
+            }
+            (limit, improved, found) = (best.t, true, None);
         }
-        match stack.pop(best.t) {
+        match pop(&stack, &mut len, limit) {
             Some(next) => current = next,
             None => break,
         }
     }
     if let Some((index, lane)) = found {
-        best.uv = barycentric(&tree.blocks[index], &shear, lane);
+        best.uv = barycentric(&blocks[index], &shear, lane);
     }
     improved
 }
 
 /// The child to go on with; the others are pushed, farthest first.
 #[inline(always)]
-fn choose<const ANY: bool>(node: &Node, mut mask: u32, entry: &[f32; 8], stack: &mut Stack) -> Option<Child> {
+fn choose<const ANY: bool>(
+    node: &Node,
+    mut mask: u32,
+    entry: &[f32; 8],
+    stack: &mut Stack,
+    len: &mut usize,
+) -> Option<Child> {
     let take = |mask: &mut u32| {
         let slot = (mask.trailing_zeros() & 7) as usize;
         *mask &= *mask - 1;
@@ -331,18 +326,17 @@ fn choose<const ANY: bool>(node: &Node, mut mask: u32, entry: &[f32; 8], stack: 
     }
     let second = take(&mut mask);
     let (near, far) = if first < second { (first, second) } else { (second, first) };
+    let base = *len;
+    push(stack, len, far);
     if mask == 0 {
-        stack.push(far);
         return Some(Child(near as u32));
     }
-    let base = stack.len;
-    stack.push(far);
-    stack.push(near);
+    push(stack, len, near);
     while mask != 0 {
         let next = take(&mut mask);
-        if ANY { stack.push(next) } else { stack.insert(base, next) }
+        if ANY { push(stack, len, next) } else { insert(stack, len, base, next) }
     }
-    stack.len -= 1;
+    *len -= 1;
     // SAFETY: just written
-    Some(Child(unsafe { stack.words.get_unchecked(stack.len).assume_init() } as u32))
+    Some(Child(unsafe { stack.get_unchecked(*len).assume_init() } as u32))
 }

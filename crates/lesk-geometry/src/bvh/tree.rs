@@ -13,29 +13,23 @@ pub(super) const LANES: usize = 4;
 #[derive(Clone, Debug)]
 #[repr(C, align(64))]
 pub(super) struct Node {
-    /// Smallest x, y, z, then largest x, y, z; an empty slot holds +infinity, then -infinity.
+    /// Smallest and largest x, then y, then z: the opposite bound of row r is row r ^ 1. An empty slot holds +infinity
+    /// and -infinity.
     pub bounds: [[f32; 8]; 6],
     pub child: [Child; 8],
 }
 
 impl Node {
-    pub const EMPTY: Self = Node {
-        bounds: [
-            [f32::INFINITY; 8],
-            [f32::INFINITY; 8],
-            [f32::INFINITY; 8],
-            [f32::NEG_INFINITY; 8],
-            [f32::NEG_INFINITY; 8],
-            [f32::NEG_INFINITY; 8],
-        ],
-        child: [Child::node(0); 8],
+    pub const EMPTY: Self = {
+        let (lo, hi) = ([f32::INFINITY; 8], [f32::NEG_INFINITY; 8]);
+        Node { bounds: [lo, hi, lo, hi, lo, hi], child: [Child::node(0); 8] }
     };
 
     pub fn set(&mut self, slot: usize, bounds: &Bounds, child: Child) {
         let (lo, hi) = (bounds.min.to_array(), bounds.max.to_array());
         for k in 0..3 {
-            self.bounds[k][slot] = lo[k];
-            self.bounds[k + 3][slot] = hi[k];
+            self.bounds[2 * k][slot] = lo[k];
+            self.bounds[2 * k + 1][slot] = hi[k];
         }
         self.child[slot] = child;
     }

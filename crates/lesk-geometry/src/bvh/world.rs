@@ -118,7 +118,7 @@ impl WorldBuilder {
         let Parts { copies, others, .. } = parts;
         let isa = self.isa.unwrap_or_else(Isa::current);
         Ok(World {
-            wide: isa >= Isa::Avx2 && Isa::Avx2.is_available(),
+            isa: if isa.is_available() { isa } else { Isa::Baseline },
             geometries: self.geometries,
             instances: self.instances,
             upper,
@@ -211,8 +211,8 @@ pub struct World {
     lower: Vec<Option<Tree>>,
     copies: Vec<(u32, u32)>,
     others: Vec<u32>,
-    /// Whether AVX2 and FMA may be used.
-    wide: bool,
+    /// Available on this processor.
+    isa: Isa,
 }
 
 /// `source` of hits in the world tree; an instance has its number plus one.
@@ -221,26 +221,28 @@ const UPPER: u32 = 0;
 impl World {
     /// The nearest surface along the ray. Of several at exactly the same distance, always the same one.
     pub fn intersect(&self, ray: &Ray) -> Option<Hit> {
-        let ray = usable(ray)?;
         let mut best = Best::none(ray.t_max);
-        self.cast::<false>(&ray, &mut best).then(|| self.hit(&best))
+        self.cast::<false>(ray, &mut best).then(|| self.hit(&best))
     }
 
     /// Whether anything lies on the ray.
     pub fn occluded(&self, ray: &Ray) -> bool {
-        let Some(ray) = usable(ray) else { return false };
-        self.cast::<true>(&ray, &mut Best::none(ray.t_max))
+        self.cast::<true>(ray, &mut Best::none(ray.t_max))
     }
 
+    #[inline(always)]
     fn cast<const ANY: bool>(&self, ray: &Ray, best: &mut Best) -> bool {
-        let local = local_ray(ray.o, ray.d, ray.t_min);
-        if !local.is_usable() {
+        // a `t_min` that is negative or no number counts as 0
+        let t_min = if ray.t_min > 0.0 { ray.t_min } else { 0.0 };
+        let local = local_ray(ray.o, ray.d, t_min);
+        if !(t_min < ray.t_max && local.is_usable()) {
             return false;
         }
-        let entered = Entered { world: self, ray };
+        let entered = Entered { world: self, ray, t_min };
         self.walk::<Entered<'_, ANY>, ANY>(&self.upper, &local, UPPER, &entered, best)
     }
 
+    #[inline(always)]
     fn walk<O: Others, const ANY: bool>(
         &self,
         tree: &Tree,
@@ -249,10 +251,12 @@ impl World {
         others: &O,
         best: &mut Best,
     ) -> bool {
+        // SAFETY: `isa` is available
         #[cfg(target_arch = "x86_64")]
-        if self.wide {
-            // SAFETY: `wide` is set only where AVX2 and FMA are available
-            return unsafe { walk_avx2::<O, ANY>(tree, ray, source, others, best) };
+        match self.isa {
+            Isa::Avx512 => return unsafe { walk_avx512::<O, ANY>(tree, ray, source, others, best) },
+            Isa::Avx2 => return unsafe { walk_avx2::<O, ANY>(tree, ray, source, others, best) },
+            Isa::Baseline => {}
         }
         walk::<Portable, O, ANY>(tree, ray, source, others, best)
     }
@@ -325,6 +329,7 @@ impl World {
 struct Entered<'a, const ANY: bool> {
     world: &'a World,
     ray: &'a Ray,
+    t_min: f32,
 }
 
 impl<const ANY: bool> Others for Entered<'_, ANY> {
@@ -336,12 +341,12 @@ impl<const ANY: bool> Others for Entered<'_, ANY> {
         let (o, d) = (inverse.point_f64(widen(self.ray.o)), inverse.vector_f64(widen(self.ray.d)));
         let source = number + 1;
         if let Some(tree) = &self.world.lower[instance.geometry as usize] {
-            let local = local_ray(narrow(o), narrow(d), self.ray.t_min);
+            let local = local_ray(narrow(o), narrow(d), self.t_min);
             return local.is_usable() && self.world.walk::<NoOthers, ANY>(tree, &local, source, &NoOthers, best);
         }
         let shape = &self.world.geometries[instance.geometry as usize];
         // the next number above the limit: a hit at exactly `best.t` is compared by number
-        let hit = shape_intersect(shape, o, d, self.ray.t_min, best.t.next_up());
+        let hit = shape_intersect(shape, o, d, self.t_min, best.t.next_up());
         let Some((t, prim)) = hit.filter(|&(t, prim)| best.is_beaten_by(t, source, prim)) else {
             return false;
         };
@@ -354,16 +359,22 @@ fn local_ray(o: Vec3<f32>, d: Vec3<f32>, t_min: f32) -> LocalRay {
     LocalRay { o: o.to_array(), d: d.to_array(), t_min }
 }
 
-/// The ray with `t_min` at least 0; `None` where no parameter is left.
-#[inline(always)]
-fn usable(ray: &Ray) -> Option<Ray> {
-    let t_min = if ray.t_min > 0.0 { ray.t_min } else { 0.0 };
-    (t_min < ray.t_max).then_some(Ray { t_min, ..*ray })
-}
-
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx2,fma")]
 unsafe fn walk_avx2<O: Others, const ANY: bool>(
+    tree: &Tree,
+    ray: &LocalRay,
+    source: u32,
+    others: &O,
+    best: &mut Best,
+) -> bool {
+    walk::<super::traverse::avx2::Wide, O, ANY>(tree, ray, source, others, best)
+}
+
+/// The same code: what AVX-512 brings is twice the registers.
+#[cfg(target_arch = "x86_64")]
+#[target_feature(enable = "avx2,fma,avx512f,avx512vl,avx512bw,avx512dq")]
+unsafe fn walk_avx512<O: Others, const ANY: bool>(
     tree: &Tree,
     ray: &LocalRay,
     source: u32,
