@@ -8,7 +8,7 @@
 use crate::cubature::{Integral, integrate};
 use crate::directions;
 use crate::effort::Budget;
-use crate::finding::{Finding, worst as worst_of};
+use crate::finding::{Finding, exceeds, worst as worst_of};
 use crate::partition::{Partition, with_halo};
 use crate::random::Random;
 use crate::region::Region;
@@ -29,6 +29,9 @@ const PER_CELL: usize = 16;
 
 /// The error of the expected shares, summed over all cells, to aim at: below the noise of 1e6 draws.
 const ERROR: f64 = 1e-4;
+
+/// The most evaluations of the density.
+const EVALUATIONS: usize = 400_000;
 
 /// Draws whose weight and density are compared with the functions.
 const WEIGHED: usize = 512;
@@ -54,55 +57,81 @@ struct Bin {
     error: f64,
 }
 
+/// The bins of one direction: cells of the sphere, then delta lobes, then the rejected draws.
+struct Bins {
+    partition: Partition,
+    lobes: Vec<Delta<f64>>,
+    bins: Vec<Bin>,
+}
+
+impl Bins {
+    /// Cells that follow a pilot set of draws, with the counts that `n` draws should give.
+    fn new(case: &Case, wo: Vec3<f64>, n: f64, rng: &mut Random) -> Bins {
+        let lobes = case.delta(wo);
+        let pilot = (0..PILOT).map(|_| case.draw(wo, rng.unit3())).filter(|s| s.pdf > 0.0 && s.delta == 0.0);
+        let mut hints: Vec<Vec3<f64>> = pilot.map(|s| s.wi).collect();
+        hints.push(vec3(-wo.x, -wo.y, wo.z));
+        let partition = Partition::new(case.domain(), &hints, PER_CELL);
+        let density = |wi| [case.pdf(wi, wo); CHANNELS];
+        let integrals = integrate(&partition, density, &with_halo(hints), ERROR, EVALUATIONS);
+        let cell = |i: &Integral| Bin { expected: n * i.value[0], observed: 0.0, error: n * i.error };
+        let mut bins: Vec<Bin> = integrals.iter().map(cell).collect();
+        bins.extend(lobes.iter().map(|lobe| Bin { expected: n * lobe.probability, ..Bin::default() }));
+        let expected: f64 = bins.iter().map(|b| b.expected).sum();
+        let error: f64 = bins.iter().map(|b| b.error).sum();
+        bins.push(Bin { expected: (n - expected).max(0.0), observed: 0.0, error });
+        Bins { partition, lobes, bins }
+    }
+
+    /// Counts one draw.
+    fn add(&mut self, s: &Sample<f64>) {
+        let cells = self.partition.cells.len();
+        let rejected = cells + self.lobes.len();
+        let at = if s.delta != 0.0 {
+            nearest(&self.lobes, s.wi).map_or(rejected, |lobe| cells + lobe)
+        } else if s.pdf > 0.0 {
+            self.partition.find(s.wi).unwrap_or(rejected)
+        } else {
+            rejected
+        };
+        self.bins[at].observed += 1.0;
+    }
+
+    /// The expected share of all but the rejected draws, and its error.
+    fn integral(&self, n: f64) -> [f64; 2] {
+        let kept = &self.bins[..self.bins.len() - 1];
+        [kept.iter().map(|b| b.expected).sum::<f64>() / n, kept.iter().map(|b| b.error).sum::<f64>() / n]
+    }
+
+    /// What no density of draws can be.
+    fn fault(&self, n: f64) -> Option<String> {
+        let [integral, error] = self.integral(n);
+        if exceeds(integral, 1.0001 + error) {
+            return Some(format!("the density integrates to {integral:.5}, more than 1"));
+        }
+        let cells = &self.bins[..self.partition.cells.len()];
+        let empty = cells.iter().find(|b| b.observed > 2.0 && b.expected + b.error < 1e-6)?;
+        Some(format!("{} draws where the density is zero", empty.observed))
+    }
+}
+
 /// Draws `count` directions for `wo` and compares.
 pub fn histogram(case: &Case, wo: Vec3<f64>, count: usize, rng: &mut Random) -> Outcome {
-    let lobes = case.delta(wo);
-    let mut outcome = Outcome { p: 1.0, chi_square: [0.0, 0.0], integral: [0.0, 0.0], fault: None };
-    outcome.fault = lobes.iter().find_map(|lobe| misdirected(case, wo, lobe));
-    let pilot = (0..PILOT).map(|_| case.draw(wo, rng.unit3())).filter(|s| s.pdf > 0.0 && s.delta == 0.0);
-    let mut hints: Vec<Vec3<f64>> = pilot.map(|s| s.wi).collect();
-    hints.push(vec3(-wo.x, -wo.y, wo.z));
-    let partition = Partition::new(case.domain(), &hints, PER_CELL);
-    let integrals = integrate(&partition, |wi| [case.pdf(wi, wo); CHANNELS], &with_halo(hints), ERROR, 400_000);
     let n = count as f64;
-    let bin = |i: &Integral| Bin { expected: n * i.value[0], observed: 0.0, error: n * i.error };
-    let mut bins: Vec<Bin> = integrals.iter().map(bin).collect();
-    let cells = bins.len();
-    bins.extend(lobes.iter().map(|lobe| Bin { expected: n * lobe.probability, ..Bin::default() }));
-    let expected: f64 = bins.iter().map(|b| b.expected).sum();
-    let error: f64 = bins.iter().map(|b| b.error).sum();
-    bins.push(Bin { expected: (n - expected).max(0.0), observed: 0.0, error });
-    outcome.integral = [expected / n, error / n];
-    if !(expected <= n * 1.0001 + error) {
-        outcome.fault.get_or_insert(format!("the density integrates to {:.5}, more than 1", expected / n));
-    }
+    let mut bins = Bins::new(case, wo, n, rng);
+    let mut fault = bins.lobes.iter().find_map(|lobe| misdirected(case, wo, lobe));
     for i in 0..count {
         let s = case.draw(wo, rng.unit3());
-        if i < WEIGHED || s.delta != 0.0 && outcome.fault.is_none() {
-            let fault = misweighed(case, wo, &s, &lobes);
-            outcome.fault = outcome.fault.or(fault);
+        if fault.is_none() && (i < WEIGHED || s.delta != 0.0) {
+            fault = misweighed(case, wo, &s, &bins.lobes);
         }
-        let at = if s.delta != 0.0 {
-            cells + nearest(&lobes, s.wi).unwrap_or(lobes.len())
-        } else if s.pdf > 0.0 {
-            partition.find(s.wi).unwrap_or(cells + lobes.len())
-        } else {
-            cells + lobes.len()
-        };
-        bins[at].observed += 1.0;
+        bins.add(&s);
     }
-    let empty = |b: &&Bin| b.observed > 2.0 && b.expected + b.error < 1e-6;
-    if let Some(bin) = bins[..cells].iter().find(empty) {
-        let text = format!("{} draws where the density is zero", bin.observed);
-        outcome.fault.get_or_insert(text);
-    }
-    outcome.chi_square = chi_square(bins);
-    outcome.p = if outcome.chi_square[1] > 0.0 {
-        chi_square_survival(outcome.chi_square[0], outcome.chi_square[1])
-    } else {
-        1.0
-    };
-    outcome
+    let fault = fault.or_else(|| bins.fault(n));
+    let integral = bins.integral(n);
+    let [x, dof] = chi_square(bins.bins);
+    let p = if dof > 0.0 { chi_square_survival(x, dof) } else { 1.0 };
+    Outcome { p, chi_square: [x, dof], integral, fault }
 }
 
 /// Chi-square and degrees of freedom of bins pooled to at least 5 expected. Deviations count beyond the error of the
@@ -151,7 +180,7 @@ fn misweighed(case: &Case, wo: Vec3<f64>, s: &Sample<f64>, lobes: &[Delta<f64>])
         let weight = lobe.weight * (1.0 / lobe.probability);
         let wrong = largest(s.weight - weight) / largest(weight).max(1e-30);
         let off = (lobe.wi - s.wi).length().max((s.pdf - lobe.probability).abs());
-        return (!(wrong <= close && off <= close)).then(|| "a delta draw differs from its lobe".to_owned());
+        return exceeds(wrong.max(off), close).then(|| "a delta draw differs from its lobe".to_owned());
     }
     if s.pdf == 0.0 {
         let black = largest(s.weight) == 0.0;
@@ -161,10 +190,10 @@ fn misweighed(case: &Case, wo: Vec3<f64>, s: &Sample<f64>, lobes: &[Delta<f64>])
     let f = case.eval(s.wi, wo);
     let weight = f * (s.wi.z.abs() / s.pdf);
     let wrong = largest(s.weight - weight) / largest(weight).max(1e-30);
-    if !((s.pdf - pdf).abs() <= close * pdf) {
+    if exceeds((s.pdf - pdf).abs(), close * pdf) {
         return Some(format!("a draw states density {}, `pdf` says {pdf}", s.pdf));
     }
-    (!(wrong <= close)).then(|| format!("the weight of a draw is off by {wrong:.2e} from f cos / pdf"))
+    exceeds(wrong, close).then(|| format!("the weight of a draw is off by {wrong:.2e} from f cos / pdf"))
 }
 
 /// The direction of a delta lobe against the law of reflection or of refraction.
@@ -174,7 +203,7 @@ fn misdirected(case: &Case, wo: Vec3<f64>, lobe: &Delta<f64>) -> Option<String> 
     let (x, y) = (-wo.x * ratio, -wo.y * ratio);
     let off = (lobe.wi.x - x).abs().max((lobe.wi.y - y).abs()).max((lobe.wi.length() - 1.0).abs());
     let law = if across { "Snell's law" } else { "the mirror image" };
-    (!(off <= close(case))).then(|| format!("a delta lobe is {off:.1e} away from {law}"))
+    exceeds(off, close(case)).then(|| format!("a delta lobe is {off:.1e} away from {law}"))
 }
 
 /// The outcome at one direction, as a finding; `configurations` is how many share the significance. What fails by

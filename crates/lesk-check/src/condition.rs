@@ -120,9 +120,8 @@ impl Condition {
     /// Fulfils the equations by assigning to a parameter that stands alone on one side. False where that gives an
     /// illegal value or the whole does not hold afterwards.
     pub fn solve(&self, specs: &[ParamSpec], params: &mut [f64]) -> bool {
-        let equations = self.clauses.iter().filter(|clause| clause.relation == Relation::Equal);
-        equations.fold(true, |ok, clause| ok && (clause.holds(params) || clause.assign(specs, params)))
-            && self.holds(params)
+        let mut equations = self.clauses.iter().filter(|clause| clause.relation == Relation::Equal);
+        equations.all(|clause| clause.holds(params) || clause.assign(specs, params)) && self.holds(params)
     }
 }
 

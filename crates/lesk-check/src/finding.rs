@@ -40,8 +40,7 @@ impl Finding {
 
     /// Whether the property fails here.
     pub fn violates(&self) -> bool {
-        // NaN violates
-        !(self.value <= self.allowed)
+        exceeds(self.value, self.allowed)
     }
 
     /// The worse of two findings: a violation before none, then the larger value.
@@ -50,6 +49,11 @@ impl Finding {
         let (a, b) = (rank(&self), rank(&other));
         if b.0 & !a.0 || b.0 == a.0 && b.1 > a.1 { other } else { self }
     }
+}
+
+/// Whether `value` is more than `allowed`, or NaN.
+pub fn exceeds(value: f64, allowed: f64) -> bool {
+    value > allowed || value.is_nan() || allowed.is_nan()
 }
 
 /// The worst of many findings; `stop` ends the search at the first violation.

@@ -18,7 +18,8 @@ th { font-weight: 600; font-size: .85rem; opacity: .75 } .wide { overflow-x: aut
 td.n { text-align: right; white-space: nowrap } th.n { text-align: right } a { color: inherit }
 .good { color: var(--good) } .mild { color: var(--mild) } .bad { color: var(--bad); font-weight: 600 }
 code, .place { font-family: ui-monospace, monospace; font-size: .82em } .place { opacity: .75; word-break: break-word }
-details summary { cursor: pointer } .model { display: flex; gap: 1.5rem; flex-wrap: wrap; align-items: flex-start }
+details summary { cursor: pointer } .note { max-width: 30rem; font-size: .88em; margin: .3rem 0 .3rem 1rem }
+.model { display: flex; gap: 1.5rem; flex-wrap: wrap; align-items: flex-start }
 .model .wide { flex: 1 1 36rem } svg { flex: 0 0 auto } svg text { fill: currentColor; font: 10px system-ui, sans-serif }
 ";
 
@@ -31,7 +32,7 @@ pub fn html(reports: &[Report]) -> String {
     let rows: usize = reports.iter().map(|report| report.rows.len()).sum();
     let failed: usize = reports.iter().map(|report| report.failures().count()).sum();
     let state = if failed == 0 {
-        "<span class=\"good\">all hold</span>".to_owned()
+        "<span class=\"good\">all as stated</span>".to_owned()
     } else {
         format!("<span class=\"bad\">{failed} failed</span>")
     };
@@ -83,36 +84,45 @@ fn section(out: &mut String, report: &Report) {
     let _ = writeln!(out, "<h2 id=\"{id}\">{id}<small>{title} [{paper}], {:.1} s</small></h2>", report.seconds);
     out.push_str("<div class=\"model\"><div class=\"wide\"><table><tr><th>property</th><th>condition</th>");
     out.push_str("<th>outcome</th><th class=\"n\">worst value</th><th class=\"n\">allowed</th></tr>\n");
-    for row in &report.rows {
-        let class = match row.verdict {
-            Verdict::Held => "good",
-            Verdict::Failed => "bad",
-            _ => "mild",
-        };
-        let show = |x: Option<f64>| x.map_or("&ndash;".to_owned(), number);
-        let condition = row.condition.as_deref().map_or("always".to_owned(), |c| format!("<code>{}</code>", escape(c)));
-        let condition = if row.verdict == Verdict::RefutedAsStored { "counterexample".to_owned() } else { condition };
-        let _ = write!(
-            out,
-            "<tr><td>{}</td><td>{condition}</td><td class=\"{class}\">{}</td>",
-            row.property.replace('_', " "),
-            mark(row.verdict)
-        );
-        let _ =
-            write!(out, "<td class=\"n\">{}</td><td class=\"n\">{}</td></tr>\n", show(row.value), show(row.allowed));
-        let _ = write!(out, "<tr><td></td><td colspan=\"4\"><details><summary>{}", escape(&row.measure));
-        let _ =
-            write!(out, "</summary>{}<div class=\"place\">{}</div></details>", escape(&row.note), escape(&place(row)));
-        out.push_str("</td></tr>\n");
-    }
+    report.rows.iter().for_each(|row| table_row(out, row));
     out.push_str("</table></div>\n");
     curves(out, &report.albedo);
     out.push_str("</div>\n");
 }
 
+/// One statement; what its value means and where it was found unfolds.
+fn table_row(out: &mut String, row: &Row) {
+    let class = match row.verdict {
+        Verdict::Held => "good",
+        Verdict::Failed => "bad",
+        _ => "mild",
+    };
+    let condition = match (row.verdict, row.condition.as_deref()) {
+        (Verdict::RefutedAsStored, _) => "counterexample".to_owned(),
+        (_, Some(condition)) => format!("<code>{}</code>", escape(condition)),
+        (_, None) => "always".to_owned(),
+    };
+    let show = |x: Option<f64>| x.map_or("&ndash;".to_owned(), number);
+    let open = if row.verdict == Verdict::Failed { " open" } else { "" };
+    let _ = write!(out, "<tr><td><details{open}><summary>{}</summary>", row.property.replace('_', " "));
+    let _ = write!(out, "<div class=\"note\">value: {}", escape(&row.measure));
+    if row.error > 0.0 {
+        let _ = write!(out, " &plusmn; {}", number(row.error));
+    }
+    if !row.note.is_empty() {
+        let _ = write!(out, "<br>{}", escape(&row.note));
+    }
+    // a value of zero was found everywhere
+    let found = if row.value == Some(0.0) { String::new() } else { escape(&place(row)) };
+    let _ = write!(out, "<div class=\"place\">{found}</div></div></details></td>");
+    let _ = write!(out, "<td>{condition}</td><td class=\"{class}\">{}</td>", mark(row.verdict));
+    let _ = writeln!(out, "<td class=\"n\">{}</td><td class=\"n\">{}</td></tr>", show(row.value), show(row.allowed));
+}
+
 /// Width, height and margins of the plot, pixels.
 const SIZE: [f64; 2] = [300.0, 190.0];
 const LEFT: f64 = 34.0;
+const RIGHT: f64 = 14.0;
 const BOTTOM: f64 = 30.0;
 
 /// Directional albedo against the polar angle: reflected solid, with transmission added dashed.
@@ -122,7 +132,7 @@ fn curves(out: &mut String, curves: &[Curve]) {
     }
     let sum = |c: &Curve, i: usize| c.reflected[i] + c.transmitted[i];
     let top = curves.iter().flat_map(|c| (0..c.theta_deg.len()).map(move |i| sum(c, i))).fold(1.0, f64::max);
-    let x = |theta: f64| LEFT + (SIZE[0] - LEFT - 6.0) * theta / 90.0;
+    let x = |theta: f64| LEFT + (SIZE[0] - LEFT - RIGHT) * theta / 90.0;
     let y = |value: f64| (SIZE[1] - BOTTOM) - (SIZE[1] - BOTTOM - 8.0) * value / top;
     let [w, h] = SIZE;
     let _ = writeln!(out, "<svg width=\"{w}\" height=\"{h}\" role=\"img\" aria-label=\"directional albedo\">");
@@ -132,7 +142,7 @@ fn curves(out: &mut String, curves: &[Curve]) {
             writeln!(out, "<text x=\"{:.1}\" y=\"{}\" text-anchor=\"middle\">{theta}\u{b0}</text>", x(theta), h - 17.0);
     }
     for value in [0.0, 0.5 * top, top] {
-        let _ = write!(out, "<path d=\"M{LEFT} {0:.1}H{1}\" stroke=\"#8884\"/>", y(value), w - 6.0);
+        let _ = write!(out, "<path d=\"M{LEFT} {0:.1}H{1}\" stroke=\"#8884\"/>", y(value), w - RIGHT);
         let _ = writeln!(out, "<text x=\"30\" y=\"{:.1}\" text-anchor=\"end\">{value:.2}</text>", y(value) + 3.0);
     }
     for (curve, colour) in curves.iter().zip(["#2f7fd6", "#d6722f"]) {

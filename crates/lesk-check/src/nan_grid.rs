@@ -6,6 +6,7 @@ use crate::random::Random;
 use crate::region::Region;
 use crate::subject::{Case, Reference};
 use lesk_bsdf::Scatter;
+use lesk_bsdf::bsdf::MIN_COS;
 use lesk_bsdf::model::Domain;
 use lesk_math::{Color, Vec3, vec3};
 
@@ -24,7 +25,7 @@ pub fn scan(model: &dyn Scatter, n: usize) -> Finding {
             let fault = fault(model, params, wi, wo, &mut rng);
             if let Some(fault) = fault {
                 count += 1;
-                first.get_or_insert_with(|| (at, wi, wo, fault));
+                first.get_or_insert((at, wi, wo, fault));
             }
         }
     }
@@ -48,21 +49,23 @@ fn parameters(model: &dyn Scatter, count: usize, rng: &mut Random) -> (Vec<Vec<f
 /// Pairs of `n` cosines (both ends of the domain at every scale) with the azimuths where formulas degenerate; every
 /// fourth pair is equal, mirrored or opposite, and lengths are off by up to 1e-5.
 fn pairs(domain: Domain, n: usize, rng: &mut Random) -> Vec<(Vec3<f32>, Vec3<f32>)> {
+    // from the horizon up to the normal, and from the normal down to the horizon, in powers of ten
     let cosine = |i: usize| {
-        let t = i as f64 / (n - 1).max(1) as f64;
-        if i % 3 == 0 { 1e-6f64.powf(1.0 - t).max(1e-6) } else { 1.0 - 10f64.powf(-9.0 * (1.0 - t)) * t.max(1e-3) }
+        let left = 1.0 - i as f64 / (n - 1).max(1) as f64;
+        let z = if i.is_multiple_of(2) { 1e-6f64.powf(left) } else { 1.0 - 1e-9f64.powf(left) };
+        z.max(MIN_COS)
     };
     let mut pairs = Vec::new();
     for i in 0..n {
         for o in 0..n {
             let azimuth = [0.0, 90.0, 180.0, 270.0, rng.within(0.0, 360.0)][rng.index(5)];
             let side = |rng: &mut Random| if domain != Domain::Upper && rng.chance(0.5) { -1.0 } else { 1.0 };
-            let wo = from_cosine(cosine(o).max(1e-6) * side(rng), f64::to_radians(azimuth));
+            let wo = from_cosine(cosine(o) * side(rng), f64::to_radians(azimuth));
             let wi = match rng.index(12) {
                 0 => wo,
                 1 => vec3(-wo.x, -wo.y, wo.z),
                 2 if domain != Domain::Upper => -wo,
-                _ => from_cosine(cosine(i).max(1e-6) * side(rng), f64::to_radians(90.0 * rng.index(4) as f64)),
+                _ => from_cosine(cosine(i) * side(rng), f64::to_radians(90.0 * rng.index(4) as f64)),
             };
             let mut length = || 1.0 + 1e-5 * [0.0, -1.0, 1.0][rng.index(3)];
             pairs.push(((wi * length()).map(|x| x as f32), (wo * length()).map(|x| x as f32)));

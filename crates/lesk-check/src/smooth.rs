@@ -6,7 +6,7 @@
 
 use crate::directions;
 use crate::effort::Budget;
-use crate::finding::{Finding, worst as worst_of};
+use crate::finding::{Finding, exceeds, worst as worst_of};
 use crate::random::Random;
 use crate::region::Region;
 use crate::subject::{Case, Subject, largest};
@@ -84,7 +84,7 @@ fn kink(subject: &dyn Subject, from: &Point, to: &Point) -> Option<Kink> {
     // the four values of a second difference are rounded
     let noise =
         |end: &Point| 4.0 * Case::new(subject, &end.params).rounding(end.wi, end.wo) / (0.5 * (hi - lo) * scale);
-    (found && !(jump < JUMP + noise(&ends[0]).max(noise(&ends[1])))).then(|| Kink { jump, ends })
+    (found && exceeds(jump, JUMP + noise(&ends[0]).max(noise(&ends[1])))).then_some(Kink { jump, ends })
 }
 
 /// Zooms until h nears the root of epsilon, below which differences are rounding.

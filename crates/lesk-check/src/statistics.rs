@@ -16,7 +16,7 @@ pub fn ln_gamma(x: f64) -> f64 {
 /// fraction (DLMF 8.7.1 and 8.9.2).
 pub fn chi_square_survival(x: f64, dof: f64) -> f64 {
     let (a, x) = (0.5 * dof, 0.5 * x);
-    if x.is_nan() || !(a > 0.0) {
+    if x.is_nan() || a.is_nan() || a <= 0.0 {
         return f64::NAN;
     }
     if x <= 0.0 {

@@ -13,11 +13,12 @@ pub fn mark(verdict: Verdict) -> &'static str {
     }
 }
 
-/// A number in at most 9 characters.
+/// A number in at most 10 characters.
 pub fn number(x: f64) -> String {
     match x.abs() {
         0.0 => "0".to_owned(),
-        a if (1e-3..1e5).contains(&a) => format!("{x:.4}"),
+        a if (1e-3..10.0).contains(&a) => format!("{x:.6}"),
+        a if (10.0..1e5).contains(&a) => format!("{x:.3}"),
         _ => format!("{x:.2e}"),
     }
 }
@@ -25,7 +26,13 @@ pub fn number(x: f64) -> String {
 /// `alpha_x 0.2, ...; wi 30.0 0.0, wo 50.0 140.0` in degrees.
 pub fn place(row: &Row) -> String {
     let Some(place) = &row.place else { return String::new() };
-    let params: Vec<String> = place.params.iter().map(|(name, value)| format!("{name} {}", number(*value))).collect();
+    let short = |x: f64| if x == 0.0 || x.abs() >= 1e-3 { format!("{:.5}", x) } else { format!("{x:.3e}") };
+    let trim = |text: String| match text.contains(['e', 'N', 'i']) {
+        true => text,
+        false => text.trim_end_matches('0').trim_end_matches('.').to_owned(),
+    };
+    let params: Vec<String> =
+        place.params.iter().map(|(name, value)| format!("{name} {}", trim(short(*value)))).collect();
     let [[ti, pi], [to, po]] = [place.wi_deg, place.wo_deg];
     format!("{}; wi {ti:.4} {pi:.2}, wo {to:.4} {po:.2}", params.join(", "))
 }
