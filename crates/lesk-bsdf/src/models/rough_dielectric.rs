@@ -61,32 +61,34 @@ struct Facet<R: Real> {
 }
 
 impl<R: Real> RoughDielectric<R> {
-    /// Index of refraction on the far side of `wo` divided by that on its own.
+    /// Index of refraction on the far side of `wo` divided by that on its own, and the inverse.
     #[inline(always)]
-    fn far(&self, wo: Vec3<R>) -> R {
-        R::select(wo.z.gt(R::ZERO), self.ior, self.ior.recip())
+    fn indices(&self, wo: Vec3<R>) -> (R, R) {
+        let (above, recip) = (wo.z.gt(R::ZERO), self.ior.recip());
+        (R::select(above, self.ior, recip).named("far"), R::select(above, recip, self.ior).named("near"))
     }
 
     /// The facet that joins `wi` and `wo`, by reflection (Eq. 13) or by refraction (Eq. 16).
     #[inline(always)]
     fn facet(&self, wi: Vec3<R>, wo: Vec3<R>) -> Facet<R> {
         let reflects = (wi.z * wo.z).gt(R::ZERO);
-        let far = self.far(wo).named("far");
+        let (far, near) = self.indices(wo);
         let eta = R::select(reflects, R::ONE, far).named("eta");
         let h = (wo + wi * eta).named("h");
         // (wo + eta wi).h is the length of wo + eta wi, and at least |eta - 1|. The cosines follow from it; their dot
         // products would cancel for eta near 1
         let s2 = h.length_squared().max((eta - R::ONE).sqr()).named("s2");
         let k = (eta - R::ONE) * (eta + R::ONE);
-        let half_recip = R::HALF / s2.sqrt();
-        let (i_h, o_h) = ((s2 + k) * half_recip / eta, (s2 - k) * half_recip);
+        let recip = s2.sqrt().recip();
+        let i_h = (s2 + k) * R::HALF * recip * R::select(reflects, R::ONE, near);
+        let o_h = (s2 - k) * R::HALF * recip;
         // near total reflection i_h has more digits than o_h
         let g2 = R::select(reflects, fresnel::refracted_normal2(far, o_h), (eta * i_h).sqr());
         let fresnel = fresnel::dielectric_between(far, o_h.abs(), g2).named("fresnel"); // Eq. 22
         Facet {
             d: ndf::ggx(h, self.alpha_x, self.alpha_y).named("d"), // Eq. 33
             share: R::select(reflects, fresnel, fresnel.one_minus()),
-            jacobian: (i_h * o_h).abs() / s2,
+            jacobian: (i_h * o_h).abs() * recip * recip,
             eta,
             facing: (o_h * h.z * wo.z).gt(R::ZERO) & (i_h * h.z * wi.z).gt(R::ZERO),
         }
@@ -97,9 +99,7 @@ impl<R: Real> Bsdf<R> for RoughDielectric<R> {
     #[inline(always)]
     fn eval(&self, wi: Vec3<R>, wo: Vec3<R>) -> Color<R> {
         let facet = self.facet(wi, wo);
-        // G1(wi) G1(wo) / |4 cos_i cos_o|: Eq. 23, 34
-        let v = masking::smith_ggx_half(wi, self.alpha_x, self.alpha_y)
-            * masking::smith_ggx_half(wo, self.alpha_x, self.alpha_y);
+        let v = masking::smith_ggx_visibility_separable(wi, wo, self.alpha_x, self.alpha_y); // Eq. 23, 34
         // Eq. 21 over eta_o^2, and Eq. 20, for which the Jacobian is 1/4
         let f = R::lit(4.0) * facet.jacobian * facet.share * facet.d * v.named("v");
         Color::splat(R::select(facet.facing, f, R::ZERO))
@@ -110,11 +110,11 @@ impl<R: Real> Bsdf<R> for RoughDielectric<R> {
         let below = wo.z.lt(R::ZERO);
         let up = Vec3::select(below, -wo, wo);
         let h = ndf::sample_ggx_visible(up, self.alpha_x, self.alpha_y, [u[0], u[1]]);
-        let eta = self.far(wo);
+        let (eta, near) = self.indices(wo);
         let c = up.dot(h);
         // Eq. 40: the refracted direction about h, with g - c = (eta^2 - 1)/(g + c)
         let g = fresnel::refracted_normal2(eta, c).safe_sqrt();
-        let refracted = -(up + h * ((eta - R::ONE) * (eta + R::ONE) / (g + c))) / eta;
+        let refracted = -(up + h * ((eta - R::ONE) * (eta + R::ONE) / (g + c))) * near;
         let reflects = u[2].lt(fresnel::dielectric(eta, c));
         let wi = Vec3::select(reflects, up.reflect(h), refracted);
         // a tilted facet may reflect into the surface or refract out of it: such a draw fails, on the horizon

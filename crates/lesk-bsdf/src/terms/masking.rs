@@ -29,11 +29,11 @@ pub fn smith_ggx_visibility<R: Real>(wi: Vec3<R>, wo: Vec3<R>, alpha_x: R, alpha
 }
 
 /// Separable Smith masking and shadowing divided by 4 cos_i cos_o (walter2007 Eq. 23):
-/// V = G1(wi) G1(wo) / (4 cos_i cos_o).
+/// V = G1(wi) G1(wo) / |4 cos_i cos_o|, of directions on either side.
 #[inline(always)]
 pub fn smith_ggx_visibility_separable<R: Real>(wi: Vec3<R>, wo: Vec3<R>, alpha_x: R, alpha_y: R) -> R {
     let (si, so) = (ggx_stretch(wi, alpha_x, alpha_y), ggx_stretch(wo, alpha_x, alpha_y));
-    ((wi.z + si) * (wo.z + so)).recip()
+    ((wi.z.abs() + si) * (wo.z.abs() + so)).recip()
 }
 
 /// Masking of `w` in the V-groove of the facet `h` = wi + wo, `w` one of the two (torrance1967, cook1982):
