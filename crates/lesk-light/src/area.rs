@@ -95,6 +95,14 @@ impl Area {
         if self.two_sided || ng.dot(w) > 0.0 { self.luminance } else { Color::BLACK }
     }
 
+    /// How many lights this one is for the purpose of choosing.
+    pub(crate) fn part_count(&self) -> usize {
+        match &self.form {
+            Form::Whole(_) => 1,
+            Form::Triangles(triangles) => triangles.len(),
+        }
+    }
+
     /// The part that triangle or surface part `prim` of a hit belongs to.
     #[inline]
     pub(crate) fn part_of(&self, prim: u32) -> u32 {

@@ -11,6 +11,14 @@ use std::f64::consts::{FRAC_PI_2, PI};
 /// Cosines are compared with this slack, so that rounding never hides light that arrives.
 const SLACK: f32 = 1e-4;
 
+/// The share of the bound in an estimate; the rest is what the lights would send from their centre.
+///
+/// DEPARTS: the paper takes the bound alone, which favours large nodes at grazing angles. One sample of a tessellated
+/// sphere of 20,480 triangles scatters by 1.19 of its mean with shares of 1, 0.94 with 0.5, 0.49 with 0.1; one of 16,384
+/// points in a plane by 1.08, 0.89 and 0.65 (`tests/choosing.rs`). The share must stay above zero for light that arrives
+/// although none would from the centre; a tenth keeps its weight within ten times that of the bound alone.
+const BOUND_SHARE: f32 = 0.1;
+
 /// Bounds of one light, or of several together.
 #[derive(Clone, Copy, Debug)]
 pub struct LightBounds {
@@ -151,12 +159,21 @@ impl NodeBounds {
         }
         // nearer than their own size, lights are treated as at that distance
         let square = square.max(self.radius * self.radius).max(1e-30);
-        let estimate = self.intensity * cos_out.max(SLACK) / square;
+        // of normals spread evenly over a cone, the mean leaves (1 + cos)/2 along the axis; points shine alike everywhere
+        let everywhere = self.cos_spread <= -1.0 + SLACK;
+        let from_center = if everywhere { cos_out } else { 0.5 * cos_w.max(0.0) * (1.0 + self.cos_spread) };
+        let estimate = self.intensity * blend(cos_out, from_center) / square;
         let Some(n) = at.n else { return estimate };
         let cos_n = wi.dot(n);
         let (_, cos_in) = minus((sine(cos_n), cos_n), (sin_seen, cos_seen));
-        if cos_in <= -SLACK { 0.0 } else { estimate * cos_in.max(SLACK) }
+        if cos_in <= -SLACK { 0.0 } else { estimate * blend(cos_in, cos_n.max(0.0)) }
     }
+}
+
+/// A cosine between its bound and its value from the centre, never zero.
+#[inline]
+fn blend(bound: f32, from_center: f32) -> f32 {
+    (BOUND_SHARE * bound + (1.0 - BOUND_SHARE) * from_center).max(SLACK)
 }
 
 #[inline]

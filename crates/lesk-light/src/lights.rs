@@ -62,20 +62,44 @@ impl Lights {
         1.0 / (self.infinite.len() + usize::from(!self.tree.is_empty())).max(1) as f32
     }
 
+    /// Chooses a light with `u` in [0, 1): its number, its part (the triangle of a mesh, else 0) and the probability.
+    /// `None` where no light arrives.
+    pub fn choose(&self, at: &Receiver, u: f32) -> Option<(u32, u32, f32)> {
+        let pmf = self.infinite_pmf();
+        let scaled = f64::from(u) * (self.infinite.len() + usize::from(!self.tree.is_empty())) as f64;
+        if let Some(&light) = self.infinite.get(scaled as usize) {
+            return Some((light, 0, pmf));
+        }
+        let rest = (scaled - self.infinite.len() as f64).clamp(0.0, 1.0 - f64::EPSILON);
+        let (leaf, leaf_pmf) = self.tree.sample(at, rest)?;
+        let (light, part) = self.parts[leaf as usize];
+        Some((light, part, pmf * leaf_pmf))
+    }
+
+    /// The probability with which [`choose`](Self::choose) gives a part of a light.
+    pub fn pmf(&self, at: &Receiver, light: u32, part: u32) -> f32 {
+        let Some(known) = self.list.get(light as usize) else { return 0.0 };
+        if known.is_infinite() {
+            return if part == 0 { self.infinite_pmf() } else { 0.0 };
+        }
+        if part >= self.part_count(light) {
+            return 0.0;
+        }
+        self.infinite_pmf() * self.tree.pmf(at, self.first_part[light as usize] + part)
+    }
+
+    /// How many parts a light has: the triangles of a mesh, else 1.
+    pub fn part_count(&self, light: u32) -> u32 {
+        match self.list.get(light as usize) {
+            Some(Light::Area(area)) => area.part_count() as u32,
+            known => known.is_some().into(),
+        }
+    }
+
     /// Chooses a light with `u_light` and a direction to it with `u`, all in [0, 1); `pdf` includes the choice.
     /// `None` where nothing arrives for these numbers, which counts as a sample of value 0.
     pub fn sample(&self, at: &Receiver, u_light: f32, u: [f32; 2]) -> Option<LightSample> {
-        let pmf = self.infinite_pmf();
-        let scaled = f64::from(u_light) * f64::from(1.0 / pmf);
-        let slot = scaled as usize;
-        let (light, part, pmf) = if let Some(&light) = self.infinite.get(slot) {
-            (light, 0, pmf)
-        } else {
-            let rest = (scaled - self.infinite.len() as f64).clamp(0.0, 1.0 - 1e-9) as f32;
-            let (leaf, leaf_pmf) = self.tree.sample(at, rest.min(1.0 - f32::EPSILON / 2.0))?;
-            let (light, part) = self.parts[leaf as usize];
-            (light, part, pmf * leaf_pmf)
-        };
+        let (light, part, pmf) = self.choose(at, u_light)?;
         let mut sample = self.list[light as usize].sample(part, at, u)?;
         sample.pdf *= pmf;
         sample.light = light;
@@ -86,8 +110,7 @@ impl Lights {
     /// receiver hit.
     pub fn pdf_surface(&self, at: &Receiver, light: u32, hit: &Surface) -> f32 {
         let Some(Light::Area(area)) = self.list.get(light as usize) else { return 0.0 };
-        let leaf = self.first_part[light as usize] + area.part_of(hit.prim);
-        let pmf = self.infinite_pmf() * self.tree.pmf(at, leaf);
+        let pmf = self.pmf(at, light, area.part_of(hit.prim));
         if pmf > 0.0 { pmf * area.pdf(at, hit) } else { 0.0 }
     }
 

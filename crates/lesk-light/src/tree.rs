@@ -80,11 +80,11 @@ impl LightTree {
     }
 
     /// Chooses a light for the receiver with `u` in [0, 1); `None` where none of them contributes.
-    pub fn sample(&self, receiver: &Receiver, u: f32) -> Option<(u32, f32)> {
+    pub fn sample(&self, receiver: &Receiver, mut u: f64) -> Option<(u32, f32)> {
         if self.nodes.is_empty() {
             return None;
         }
-        let (mut at, mut pmf, mut u) = (0, 1.0, f64::from(u));
+        let (mut at, mut pmf) = (0, 1.0);
         while self.nodes[at].leaf == NO_LEAF {
             let share = self.first_share(at, receiver)?;
             let wide = f64::from(share);
