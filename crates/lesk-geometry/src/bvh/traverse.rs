@@ -46,10 +46,23 @@ impl LocalRay {
     /// Whether origin and direction are finite, the direction is not zero and its length leaves room for squares.
     #[inline(always)]
     pub fn is_usable(&self) -> bool {
-        let finite = |v: &[f32; 3]| v[0].abs() <= f32::MAX && v[1].abs() <= f32::MAX && v[2].abs() <= f32::MAX;
-        let longest = self.d[0].abs().max(self.d[1].abs()).max(self.d[2].abs());
-        finite(&self.o) && finite(&self.d) && longest > 1e-18
+        // sums of absolute values: infinity and NaN survive them
+        let size = |v: &[f32; 3]| v[0].abs() + v[1].abs() + v[2].abs();
+        let d = size(&self.d);
+        size(&self.o) <= f32::MAX && d <= f32::MAX && d > 1e-18
     }
+}
+
+/// The larger number, one instruction: neither is NaN (see [`LocalRay::is_usable`]).
+#[inline(always)]
+fn larger(a: f32, b: f32) -> f32 {
+    if a > b { a } else { b }
+}
+
+/// The largest absolute value.
+#[inline(always)]
+fn largest(v: &[f32; 3]) -> f32 {
+    larger(larger(v[0].abs(), v[1].abs()), v[2].abs())
 }
 
 /// What the box test precomputes per ray: `t = bound * inverse + add`, with `add` moved outward by more than the
@@ -66,14 +79,14 @@ pub(super) struct Slabs {
 impl Slabs {
     #[inline(always)]
     pub fn new(ray: &LocalRay, reach: f32) -> Self {
-        let longest = ray.d[0].abs().max(ray.d[1].abs()).max(ray.d[2].abs());
-        let far_away = ray.o[0].abs().max(ray.o[1].abs()).max(ray.o[2].abs());
+        let least = largest(&ray.d) * 1e-18;
+        let far_away = largest(&ray.o);
         // (b - o) / d errs by 4 roundings of |b| + |o|, the sheared corner of a triangle by 5: 16 cover their sum
         let pad = 16.0 * ROUNDING * (reach + far_away);
         let mut s = Slabs { inverse: [0.0; 3], near_add: [0.0; 3], far_add: [0.0; 3], near_row: [0; 3] };
         for k in 0..3 {
             // a component of 0 becomes one too small to matter, so that no product is 0 * infinity
-            let d = ray.d[k].abs().max(longest * 1e-18).copysign(ray.d[k]);
+            let d = larger(ray.d[k].abs(), least).copysign(ray.d[k]);
             let inverse = 1.0 / d;
             let add = -ray.o[k] * inverse;
             s.inverse[k] = inverse;

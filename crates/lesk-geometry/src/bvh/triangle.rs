@@ -36,17 +36,14 @@ pub(super) struct Shear {
 impl Shear {
     #[inline(always)]
     pub fn new(o: [f32; 3], d: [f32; 3]) -> Self {
-        let a = d.map(f32::abs);
-        let kz = if a[0] > a[1] {
-            if a[0] > a[2] { 0 } else { 2 }
-        } else if a[1] > a[2] {
-            1
-        } else {
-            2
-        };
+        let [x, y, z] = d.map(f32::abs);
+        let (longest, k) = if x > y { (x, 0) } else { (y, 1) };
+        let kz = if longest > z { k } else { 2 };
         // the winding does not matter: both sides are hit
-        let (kx, ky) = ([1, 2, 0][kz], [2, 0, 1][kz]);
-        Shear { kx, ky, kz, sx: d[kx] / d[kz], sy: d[ky] / d[kz], sz: 1.0 / d[kz], o }
+        let kx = if kz == 2 { 0 } else { kz + 1 };
+        let ky = if kx == 2 { 0 } else { kx + 1 };
+        let sz = 1.0 / d[kz];
+        Shear { kx, ky, kz, sx: d[kx] * sz, sy: d[ky] * sz, sz, o }
     }
 }
 
