@@ -29,7 +29,7 @@ def numbers(name: str, value: npt.ArrayLike) -> Array:
             raise ParameterError(f"`{name}` is {given:.60}, but numbers are accepted")
         array = array.astype(np.float64)
     native = array.dtype.newbyteorder("=")
-    return cast(Array, np.require(array, dtype=native, requirements="ALIGNED"))
+    return cast(Array, np.require(array, dtype=native, requirements=["ALIGNED"]))
 
 
 def vectors(name: str, value: npt.ArrayLike) -> Array:

@@ -27,10 +27,7 @@ def describe(model: Model) -> str:
         rows.append("<tr>" + "".join(f"<td style='text-align:left'>{c}</td>" for c in cells) + "</tr>")
     head = f"<b>{html.escape(info['title'])}</b> ({info['year']}), <code>{model.id}</code>"
     table = f"<table>{''.join(rows)}</table>"
-    return (
-        f"<div style='display:flex;align-items:center;gap:2em'><div>{head}{table}</div>"
-        f"{polar_svg(model)}</div>"
-    )
+    return f"<div style='display:flex;align-items:center;gap:2em'><div>{head}{table}</div>{polar_svg(model)}</div>"
 
 
 def polar_svg(model: Model) -> str:
@@ -67,9 +64,7 @@ def _delta_line(model: Model, wi: np.ndarray) -> list[str]:
     for direction, probability in zip(lobes.wi, lobes.probability, strict=True):
         if probability > 0 and direction[2] > 0:
             x, y = _RADIUS * direction[0], -_RADIUS * direction[2]
-            lines.append(
-                f"<line x1='0' y1='0' x2='{x:.1f}' y2='{y:.1f}' stroke='#0072b2' stroke-width='3'/>"
-            )
+            lines.append(f"<line x1='0' y1='0' x2='{x:.1f}' y2='{y:.1f}' stroke='#0072b2' stroke-width='3'/>")
     return lines
 
 

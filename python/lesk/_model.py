@@ -64,8 +64,7 @@ class Model:
                 hint = nearest(name, specs) or f"\nhint: it has {quoted(specs)}"
                 raise ParameterError(f"model `{self.id}` has no parameter `{name}`{hint}")
         self._values = {
-            name: _checked(parameters.get(name, spec["default"]), spec, self.id)
-            for name, spec in specs.items()
+            name: _checked(parameters.get(name, spec["default"]), spec, self.id) for name, spec in specs.items()
         }
         self._leading: dict[str, tuple[int, ...]] = {}
         self._flat: list[Array] = []
@@ -340,9 +339,7 @@ class Model:
     def _parameters(self, shape: tuple[int, ...]) -> list[Array]:
         return [spread(entry, shape) for entry in self._flat]
 
-    def _evaluate(
-        self, what: str, tail: tuple[int, ...], wi: npt.ArrayLike, wo: npt.ArrayLike
-    ) -> Array:
+    def _evaluate(self, what: str, tail: tuple[int, ...], wi: npt.ArrayLike, wo: npt.ArrayLike) -> Array:
         wi, wo = vectors("wi", wi), vectors("wo", wo)
         shape = self._shape(wi=wi, wo=wo)
         out = np.empty((*shape, *tail), result_type(wi, wo))

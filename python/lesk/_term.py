@@ -21,10 +21,7 @@ TERMS: dict[tuple[str, str], dict[str, Any]] = {
 def evaluate(role: str, name: str, *values: npt.ArrayLike) -> Array:
     """Evaluate a term; each argument has the shape (...) for numbers and (..., width) for the others."""
     term = TERMS[role, name]
-    arguments = {
-        spec["name"]: _argument(spec, value)
-        for spec, value in zip(term["arguments"], values, strict=True)
-    }
+    arguments = {spec["name"]: _argument(spec, value) for spec, value in zip(term["arguments"], values, strict=True)}
     shape = leading_shape({name: a.shape[:-1] for name, a in arguments.items()})
     width = term["returns"]["width"]
     # a bare number takes part in any type

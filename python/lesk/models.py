@@ -1,15 +1,13 @@
 """Every model of the registry as a class: `lesk.models.ggx(alpha_x=0.2)`.
 
-`lesk.models.ALL` holds the classes by name, in reading order.
+`lesk.models.ALL` holds the classes by name, in reading order, and `lesk.models.create` makes a model by its name.
 """
 
 from __future__ import annotations
 
 from lesk._docstring import model_docstring
-from lesk._model import Delta, Model, Sample
+from lesk._model import Model
 from lesk._registry import MODELS, find
-
-__all__ = ["ALL", "Delta", "Model", "Sample", "create"]
 
 ALL: dict[str, type[Model]] = {}
 """The classes by name, in reading order."""
@@ -47,4 +45,4 @@ for _info in MODELS:
     }
     ALL[_info["id"]] = type(_info["id"], (Model,), _members)
 globals().update(ALL)
-__all__ += ALL
+__all__ = list(ALL)

@@ -2,7 +2,7 @@
 
 use crate::value_error;
 use lesk_math::rng::Stream;
-use numpy::ndarray::{ArrayViewD, Axis, Slice};
+use numpy::ndarray::{ArrayViewD, Axis, Ix2, Slice};
 use numpy::{Element, PyReadonlyArrayDyn};
 use pyo3::prelude::*;
 use rayon::prelude::*;
@@ -83,15 +83,17 @@ impl<'a> Input<'a> {
             Source::Single(a) => View::Single(a.as_array()),
             Source::Double(a) => View::Double(a.as_array()),
         };
-        let shape = match &view {
-            View::Single(v) => v.shape(),
-            View::Double(v) => v.shape(),
+        let (shape, strides) = match &view {
+            View::Single(v) => (v.shape(), v.strides()),
+            View::Double(v) => (v.shape(), v.strides()),
         };
         let len: usize = shape.iter().product();
         if shape.last() != Some(&width) || (len != width && len != n * width) {
             return Err(value_error(format!("an input of shape {shape:?} has not 1 or {n} rows of {width}")));
         }
-        Ok(Input { view, width, uniform: len == width })
+        // one row, or one that NumPy repeats
+        let still = shape.iter().zip(strides).rev().skip(1).all(|(&length, &stride)| length == 1 || stride == 0);
+        Ok(Input { view, width, uniform: len > 0 && still })
     }
 
     /// Rows `start..start + rows` (or the only one), in place where they lie as `T` one after the other.
@@ -114,7 +116,7 @@ impl<'a> Input<'a> {
 }
 
 /// Appends rows of a view, counted over all its axes but the last.
-fn gather<S: Copy, T>(view: &ArrayViewD<S>, start: usize, rows: usize, out: &mut Vec<T>, convert: fn(S) -> T) {
+fn gather<S: Copy, T>(view: &ArrayViewD<S>, start: usize, rows: usize, out: &mut Vec<T>, convert: impl Fn(S) -> T) {
     let leading = &view.shape()[..view.ndim() - 1];
     let Some((&run, outer)) = leading.split_last() else {
         return out.extend(view.iter().map(|&x| convert(x)));
@@ -131,7 +133,11 @@ fn gather<S: Copy, T>(view: &ArrayViewD<S>, start: usize, rows: usize, out: &mut
         }
         let from = at % run;
         let to = run.min(from + end - at);
-        out.extend(plane.slice_axis(Axis(0), Slice::from(from..to)).iter().map(|&x| convert(x)));
+        // the fixed number of axes makes the loop fast
+        let plane = plane.into_dimensionality::<Ix2>().expect("the outer axes are gone");
+        for row in plane.slice_axis(Axis(0), Slice::from(from..to)).rows() {
+            out.extend(row.iter().map(|&x| convert(x)));
+        }
         at += to - from;
     }
 }

@@ -4,6 +4,7 @@ use crate::arrays::{Input, Number, Rows, Source, in_parts, share};
 use crate::value_error;
 use lesk_bsdf::batch::{self, Column, Out, UNIT_TOLERANCE};
 use lesk_bsdf::bsdf::in_domain;
+use lesk_bsdf::model::Domain;
 use lesk_bsdf::scatter::{Methods, Scatter};
 use lesk_bsdf::{params, registry};
 use lesk_math::{CHANNELS, Isa, Vec3, vec3};
@@ -29,6 +30,11 @@ pub fn registry_json() -> String {
 
 fn describe(model: &dyn Scatter) -> serde_json::Value {
     let facts = model.model();
+    let domain = match facts.domain {
+        Domain::Upper => "upper",
+        Domain::BothSides => "both_sides",
+        Domain::Sphere => "sphere",
+    };
     let kind = |k| if k == params::Kind::Color { "color" } else { "scalar" };
     let parameters = model.specs().iter().map(|p| {
         let default = if p.default.len() == 1 { json!(p.default[0]) } else { json!(p.default) };
@@ -47,7 +53,7 @@ fn describe(model: &dyn Scatter) -> serde_json::Value {
     });
     json!({
         "id": model.id(), "title": facts.title, "year": facts.year, "paper": facts.paper, "doc": model.doc(),
-        "domain": format!("{:?}", facts.domain), "parameters": parameters.collect::<Vec<_>>(),
+        "domain": domain, "parameters": parameters.collect::<Vec<_>>(),
         "entries": params::flat_names(model.specs()), "claims": claims.collect::<Vec<_>>(),
         "counterexamples": counterexamples.collect::<Vec<_>>(), "limits": limits.collect::<Vec<_>>(),
     })

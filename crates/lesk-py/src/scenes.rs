@@ -54,12 +54,12 @@ impl PyScene {
     /// Names and models of the materials.
     #[getter]
     fn materials(&self) -> Vec<(&str, &str)> {
-        self.0.materials.iter().map(|material| (material.name.as_str(), material.model.id())).collect()
+        self.0.materials.iter().map(|material| (material.name(), material.model().id())).collect()
     }
 
     #[getter]
     fn light_count(&self) -> usize {
-        self.0.lights.len()
+        self.0.lights.list().len()
     }
 
     /// What was repaired, converted or left out.
