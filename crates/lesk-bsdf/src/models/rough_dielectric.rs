@@ -60,6 +60,12 @@ struct Facet<R: Real> {
     facing: R::Mask,
 }
 
+/// Of a direction below the surface its mirror image above; facets hide from both alike.
+#[inline(always)]
+fn above<R: Real>(w: Vec3<R>) -> Vec3<R> {
+    vec3(w.x, w.y, w.z.abs())
+}
+
 impl<R: Real> RoughDielectric<R> {
     /// Index of refraction on the far side of `wo` divided by that on its own, and the inverse.
     #[inline(always)]
@@ -80,8 +86,8 @@ impl<R: Real> RoughDielectric<R> {
         let s2 = h.length_squared().max((eta - R::ONE).sqr()).named("s2");
         let k = (eta - R::ONE) * (eta + R::ONE);
         let recip = s2.sqrt().recip();
-        let i_h = (s2 + k) * R::HALF * recip * R::select(reflects, R::ONE, near);
-        let o_h = (s2 - k) * R::HALF * recip;
+        let i_h = ((s2 + k) * R::HALF * recip * R::select(reflects, R::ONE, near)).named("i_h");
+        let o_h = ((s2 - k) * R::HALF * recip).named("o_h");
         // near total reflection i_h has more digits than o_h
         let g2 = R::select(reflects, fresnel::refracted_normal2(far, o_h), (eta * i_h).sqr());
         let fresnel = fresnel::dielectric_between(far, o_h.abs(), g2).named("fresnel"); // Eq. 22
@@ -99,7 +105,7 @@ impl<R: Real> Bsdf<R> for RoughDielectric<R> {
     #[inline(always)]
     fn eval(&self, wi: Vec3<R>, wo: Vec3<R>) -> Color<R> {
         let facet = self.facet(wi, wo);
-        let v = masking::smith_ggx_visibility_separable(wi, wo, self.alpha_x, self.alpha_y); // Eq. 23, 34
+        let v = masking::smith_ggx_visibility_separable(above(wi), above(wo), self.alpha_x, self.alpha_y); // Eq. 23, 34
         // Eq. 21 over eta_o^2, and Eq. 20, for which the Jacobian is 1/4
         let f = R::lit(4.0) * facet.jacobian * facet.share * facet.d * v.named("v");
         Color::splat(R::select(facet.facing, f, R::ZERO))
@@ -127,7 +133,7 @@ impl<R: Real> Bsdf<R> for RoughDielectric<R> {
     fn pdf(&self, wi: Vec3<R>, wo: Vec3<R>) -> R {
         let facet = self.facet(wi, wo);
         // G1(wo) |wo.h| D / |cos_o| (heitz2018 Eq. 3) times dh/dwi (Eq. 14, 17): the Jacobian holds |wo.h|
-        let visible = R::TWO * masking::smith_ggx_half(wo, self.alpha_x, self.alpha_y) * facet.d;
+        let visible = R::TWO * masking::smith_ggx_half(above(wo), self.alpha_x, self.alpha_y) * facet.d;
         let pdf = visible * facet.share * facet.jacobian * facet.eta * facet.eta;
         R::select(facet.facing, pdf, R::ZERO)
     }

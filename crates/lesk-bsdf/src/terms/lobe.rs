@@ -26,8 +26,8 @@ pub fn cos_power<R: Real>(cos: R, n: R) -> R {
 /// narrow lobes.
 #[inline(always)]
 pub fn polar_cos_power<R: Real>(h: Vec3<R>, n: R) -> R {
-    let tan2 = h.x.fma(h.x, h.y * h.y) / (h.z * h.z);
-    let sec2 = R::ONE + tan2;
+    let tan2 = (h.x.fma(h.x, h.y * h.y) / (h.z * h.z)).named("tan2");
+    let sec2 = (R::ONE + tan2).named("sec2");
     // ln(1 + tan2): the second term is what rounding took from the sum
     let ln_sec2 = sec2.ln() + (tan2 - (sec2 - R::ONE)) / sec2;
     (-R::HALF * n * ln_sec2).exp()

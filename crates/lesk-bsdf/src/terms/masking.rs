@@ -1,8 +1,8 @@
-//! Masking and shadowing of facets by their neighbours.
+//! Masking and shadowing of facets by their neighbours, for directions above the surface (z > 0).
 
 use lesk_math::{Real, Vec3};
 
-/// sqrt(z^2 + alpha_x^2 x^2 + alpha_y^2 y^2): GGX's (1 + 2 Lambda) |cos|, of either side.
+/// sqrt(z^2 + alpha_x^2 x^2 + alpha_y^2 y^2): GGX's (1 + 2 Lambda) cos.
 #[inline(always)]
 fn ggx_stretch<R: Real>(w: Vec3<R>, alpha_x: R, alpha_y: R) -> R {
     let (x, y) = (alpha_x * w.x, alpha_y * w.y);
@@ -12,13 +12,13 @@ fn ggx_stretch<R: Real>(w: Vec3<R>, alpha_x: R, alpha_y: R) -> R {
 /// Smith's G1 for GGX (walter2007 Eq. 34, heitz2014 Eq. 43, 72).
 #[inline(always)]
 pub fn smith_ggx_g1<R: Real>(w: Vec3<R>, alpha_x: R, alpha_y: R) -> R {
-    R::TWO * w.z.abs() * smith_ggx_half(w, alpha_x, alpha_y)
+    R::TWO * w.z * smith_ggx_half(w, alpha_x, alpha_y)
 }
 
-/// Smith's G1 for GGX divided by 2 |cos|.
+/// Smith's G1 for GGX divided by 2 cos.
 #[inline(always)]
 pub fn smith_ggx_half<R: Real>(w: Vec3<R>, alpha_x: R, alpha_y: R) -> R {
-    (w.z.abs() + ggx_stretch(w, alpha_x, alpha_y)).recip()
+    (w.z + ggx_stretch(w, alpha_x, alpha_y)).recip()
 }
 
 /// Height-correlated Smith masking and shadowing divided by 4 cos_i cos_o (heitz2014 Eq. 99): V = G2 / (4 cos_i cos_o).
@@ -29,23 +29,23 @@ pub fn smith_ggx_visibility<R: Real>(wi: Vec3<R>, wo: Vec3<R>, alpha_x: R, alpha
 }
 
 /// Separable Smith masking and shadowing divided by 4 cos_i cos_o (walter2007 Eq. 23):
-/// V = G1(wi) G1(wo) / |4 cos_i cos_o|, of directions on either side.
+/// V = G1(wi) G1(wo) / (4 cos_i cos_o).
 #[inline(always)]
 pub fn smith_ggx_visibility_separable<R: Real>(wi: Vec3<R>, wo: Vec3<R>, alpha_x: R, alpha_y: R) -> R {
     let (si, so) = (ggx_stretch(wi, alpha_x, alpha_y), ggx_stretch(wo, alpha_x, alpha_y));
-    ((wi.z.abs() + si) * (wo.z.abs() + so)).recip()
+    ((wi.z + si) * (wo.z + so)).recip()
 }
 
-/// Masking of `w` in the V-groove of the facet `h` = wi + wo, `w` one of the two (torrance1967, cook1982):
-/// min(1, 2 cos theta_h cos theta / cos theta_d).
+/// Masking in the V-groove of the facet `h` = wi + wo, of the one of the two directions that has the given cosine
+/// (torrance1967, cook1982): min(1, 2 cos theta_h cos theta / cos theta_d).
 #[inline(always)]
-pub fn v_groove_g1<R: Real>(w: Vec3<R>, h: Vec3<R>) -> R {
+pub fn v_groove_g1<R: Real>(cos_theta: R, h: Vec3<R>) -> R {
     // cos theta_h / cos theta_d = 2 h.z / (h.h) for h = wi + wo
-    (R::lit(4.0) * h.z * w.z / h.length_squared()).min(R::ONE)
+    (R::lit(4.0) * h.z * cos_theta / h.length_squared()).min(R::ONE)
 }
 
-/// Masking and shadowing in the V-groove of the facet `h` = wi + wo, the smaller of the two.
+/// Masking and shadowing in the V-groove of the facet `h` = wi + wo: that of the direction nearer to the horizon.
 #[inline(always)]
 pub fn v_groove<R: Real>(wi: Vec3<R>, wo: Vec3<R>, h: Vec3<R>) -> R {
-    v_groove_g1(wi, h).min(v_groove_g1(wo, h))
+    v_groove_g1(wi.z.min(wo.z), h)
 }

@@ -33,15 +33,15 @@ pub fn sample_ggx_visible<R: Real>(wo: Vec3<R>, alpha_x: R, alpha_y: R, u: [R; 2
 #[inline(always)]
 pub fn beckmann<R: Real>(h: Vec3<R>, alpha_x: R, alpha_y: R) -> R {
     let recip = (h.z * h.z).recip();
-    let sec2 = h.length_squared() * recip;
+    let sec2 = (h.length_squared() * recip).named("sec2");
     (-beckmann_tan2(h, alpha_x, alpha_y)).exp() * (sec2 * sec2) * (R::PI * alpha_x * alpha_y).recip()
 }
 
-/// The exponent of Beckmann's distribution: squared slope of the facet in units of alpha.
+/// The exponent of Beckmann's distribution: the squared slope of the facet in units of alpha.
 #[inline(always)]
 pub fn beckmann_tan2<R: Real>(h: Vec3<R>, alpha_x: R, alpha_y: R) -> R {
     let (x, y) = (h.x * alpha_x.recip(), h.y * alpha_y.recip());
-    x.fma(x, y * y) * (h.z * h.z).recip()
+    (x.fma(x, y * y) * (h.z * h.z).recip()).named("tan2")
 }
 
 /// A facet normal with density D(h) cos theta_h of Beckmann's distribution (walter2007 Eq. 28; anisotropic: ward1992).
