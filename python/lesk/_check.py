@@ -60,5 +60,7 @@ def check(model: str | Model | None = None, *, full: bool = False) -> CheckRepor
     reports: list[dict[str, Any]] = []
     for name in names:
         find(name)
-        reports += json.loads(_lesk.check_json(name, full))["models"]
+        for report in json.loads(_lesk.check_json(name, full))["models"]:
+            passed = all(row["verdict"] != "failed" for row in report["rows"])
+            reports.append({"id": report["id"], "passed": passed, **report})
     return CheckReport(reports)

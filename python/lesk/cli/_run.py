@@ -46,7 +46,9 @@ def run(command: Callable[..., int | None], words: list[str]) -> int:
 
 def fail(what: object, status: int = 2) -> int:
     """Print an error in the style of the house."""
-    print(f"error: {what}", file=sys.stderr)
+    text = str(what)
+    # the faults of a scene come as a list that has the word already
+    print(text if text.startswith("error: ") else f"error: {text}", file=sys.stderr)
     return status
 
 
