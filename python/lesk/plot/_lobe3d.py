@@ -24,7 +24,7 @@ from lesk.plot._figure import (
 )
 
 
-def lobe3d(model: Model, *, theta_i_deg: float = 45, phi_i_deg: float = 0, resolution: int = 181) -> Plot:
+def lobe3d(model: Model, *, theta_i_deg: float = 45, phi_i_deg: float = 0, resolution: int = 121) -> Plot:
     """Plot f over all directions of the viewer as a surface whose distance from the origin is f.
 
     Parameters

@@ -67,8 +67,11 @@ def polar(
     below = any(m.info["domain"] != "upper" for m in models)
     wi = direction(-theta_i, phi)
     with style():
-        fig = figure(6.4, 6.4 if below else 3.9)
-        axes = fig.add_subplot(projection="polar")
+        fig = figure(6.4, 6.8 if below else 4.2)
+        # a fixed frame: the automatic one leaves half circles small
+        fig.set_layout_engine("none")
+        frame = (0.07, 0.08, 0.86, 0.76) if below else (0.07, -0.2, 0.86, 1.3)
+        axes = fig.add_axes(frame, projection="polar")
         _frame(axes, below)
         peak = max(_curves(axes, m, wi, theta_i, phi + turn, cosine, len(models) > 1, i) for i, m in enumerate(models))
         top = 1.08 * peak if peak > 0 else 1.0
@@ -85,7 +88,7 @@ def polar(
         name = label(models[0]) if len(models) == 1 else "Comparison"
         fig.suptitle(f"{name}\n{quantity} in 1/sr, light from {theta_i_deg:g}°{where}", fontsize=11)
         if axes.get_legend_handles_labels()[0]:
-            axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.02), ncols=2)
+            fig.legend(loc="lower center", ncols=3)
     return fig
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import textwrap
 from typing import Any
 
 import numpy as np
@@ -50,7 +51,7 @@ def sphere(model: Model, *, resolution: int = 320, samples: int = 64, exposure: 
         axes.imshow(np.clip(shown, 0, 1), interpolation="lanczos")
         axes.set_axis_off()
         if title:
-            axes.set_title(label(model), fontsize=10)
+            axes.set_title(textwrap.fill(label(model), 46), fontsize=9)
     return fig
 
 
@@ -123,8 +124,8 @@ def _studio(d: Single) -> Single:
     fade = np.clip(-3 * y, 0, 1)
     ground = (0.16 - 0.11 * fade * checker)[:, np.newaxis] * np.array([1.0, 0.97, 0.92], np.float32)
     light = np.where((y < 0)[:, np.newaxis], ground, light)
-    light = light + _box(d, (-0.62, 0.62, 0.5), 0.42, 0.3) * np.array([11.0, 10.0, 8.8], np.float32)
-    light = light + _box(d, (0.9, 0.3, -0.05), 0.14, 0.5) * np.array([5.0, 6.0, 7.4], np.float32)
+    light = light + _box(d, (-0.62, 0.62, 0.5), 0.75, 0.55) * np.array([4.2, 3.9, 3.5], np.float32)
+    light = light + _box(d, (0.9, 0.3, -0.05), 0.22, 0.6) * np.array([2.4, 2.8, 3.4], np.float32)
     return np.asarray(light, np.float32)
 
 
