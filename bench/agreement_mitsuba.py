@@ -5,7 +5,6 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-
 from agreement import MAP_SIZE, MATERIALS, SCENES, SIZE, radiance_of_map
 from mitsuba_side import mi, rgb
 

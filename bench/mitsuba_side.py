@@ -8,7 +8,6 @@ import re
 from typing import Any
 
 
-
 def newest_llvm() -> str | None:
     """Path of the newest LLVM of at least 16: 14 is refused, and 15 aborts on environment maps."""
     versions = {}

@@ -12,9 +12,8 @@ import tempfile
 import time
 from pathlib import Path
 
-import numpy as np
-
 import agreement
+import numpy as np
 from tiles import TileMeans, sidak_limit, z_of_scatter, z_scores
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -73,7 +72,9 @@ def compare(given: argparse.Namespace) -> bool:
     limit = sidak_limit(len(given.scenes) * (tiles + 2) * 3, ALPHA)
     print(f"Mitsuba {mi.__version__} {VARIANT}, {given.pictures} pictures of {given.spp} samples by each renderer")
     print(f"{tiles} tiles of {SIDE} x {SIDE} pixels; |z| below {limit:.2f} is chance (Sidak, {ALPHA:g} in all)\n")
-    print("| scene | Lesk / Mitsuba | its standard error | z of the picture | z of the scatter | largest z of a tile | |")
+    print(
+        "| scene | Lesk / Mitsuba | its standard error | z of the picture | z of the scatter | largest z of a tile | |"
+    )
     print("|---|---|---|---|---|---|---|")
     agrees = True
     with tempfile.TemporaryDirectory() as folder:
@@ -111,10 +112,14 @@ def store(given: argparse.Namespace) -> None:
         (STORE / f"{name}.toml").write_text(agreement.toml(name, "environment.exr"))
         tiles = mitsuba_tiles(name, given.pictures, given.spp)
         for i, (mean, variance) in enumerate(zip(tiles.mean, tiles.variance, strict=True)):
-            rows.append(f"{name},{i}," + ",".join(f"{v:.6g}" for v in mean) + "," + ",".join(f"{v:.3g}" for v in variance))
+            rows.append(
+                f"{name},{i}," + ",".join(f"{v:.6g}" for v in mean) + "," + ",".join(f"{v:.3g}" for v in variance)
+            )
         print(f"{name}: {time.perf_counter() - start:.1f} s, standard error {tiles.relative_error():.5f}", flush=True)
     (STORE / "tiles.csv").write_text("\n".join(rows) + "\n")
-    (STORE / "PROVENANCE.md").write_text(PROVENANCE.format(version=mi.__version__, variant=VARIANT, **vars(given), side=SIDE))
+    (STORE / "PROVENANCE.md").write_text(
+        PROVENANCE.format(version=mi.__version__, variant=VARIANT, **vars(given), side=SIDE)
+    )
 
 
 PROVENANCE = """# Renders of Mitsuba 3, to compare with
