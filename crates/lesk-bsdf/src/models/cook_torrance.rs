@@ -66,6 +66,6 @@ impl<R: Real> Bsdf<R> for CookTorrance<R> {
     fn pdf(&self, wi: Vec3<R>, wo: Vec3<R>) -> R {
         let h = wi + wo;
         // heitz2014b: G1(wo) (wo.h) D / wo.z, times 1/(4 wo.h)
-        masking::v_groove_g1(wo.z, h) * ndf::beckmann(h, self.alpha, self.alpha) / (R::lit(4.0) * wo.z)
+        masking::v_groove_g1(wo, h) * ndf::beckmann(h, self.alpha, self.alpha) / (R::lit(4.0) * wo.z)
     }
 }

@@ -36,10 +36,15 @@ pub fn smith_ggx_visibility_separable<R: Real>(wi: Vec3<R>, wo: Vec3<R>, alpha_x
     ((wi.z + si) * (wo.z + so)).recip()
 }
 
-/// Masking in the V-groove of the facet `h` = wi + wo, of the one of the two directions that has the given cosine
-/// (torrance1967, cook1982): min(1, 2 cos theta_h cos theta / cos theta_d).
+/// Masking of `w` in the V-groove of the facet `h` = wi + wo, `w` one of the two (torrance1967, cook1982):
+/// min(1, 2 cos theta_h cos theta / cos theta_d).
 #[inline(always)]
-pub fn v_groove_g1<R: Real>(cos_theta: R, h: Vec3<R>) -> R {
+pub fn v_groove_g1<R: Real>(w: Vec3<R>, h: Vec3<R>) -> R {
+    v_groove_at(w.z, h)
+}
+
+#[inline(always)]
+fn v_groove_at<R: Real>(cos_theta: R, h: Vec3<R>) -> R {
     // cos theta_h / cos theta_d = 2 h.z / (h.h) for h = wi + wo
     (R::lit(4.0) * h.z * cos_theta / h.length_squared()).min(R::ONE)
 }
@@ -47,5 +52,5 @@ pub fn v_groove_g1<R: Real>(cos_theta: R, h: Vec3<R>) -> R {
 /// Masking and shadowing in the V-groove of the facet `h` = wi + wo: that of the direction nearer to the horizon.
 #[inline(always)]
 pub fn v_groove<R: Real>(wi: Vec3<R>, wo: Vec3<R>, h: Vec3<R>) -> R {
-    v_groove_g1(wi.z.min(wo.z), h)
+    v_groove_at(wi.z.min(wo.z), h)
 }
