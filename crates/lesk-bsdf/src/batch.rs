@@ -55,6 +55,9 @@ pub enum Out<'a, 'b> {
 /// Directions whose squared length differs from 1 by more than this are counted, and give 0 only if they are not finite.
 pub const UNIT_TOLERANCE: f32 = 1e-4;
 
+/// From this number of directions on, results go past the caches: they would not stay there anyway.
+const STREAMING: usize = 1 << 18;
+
 /// f(wi, wo) in 1/sr: one output per channel. Returns how many directions were not of unit length.
 pub fn eval(
     model: &dyn Scatter,
@@ -147,7 +150,7 @@ fn run(
         };
         // SAFETY: `for_isa` checked that this processor has the instruction set
         unsafe { kernel(&block, rows) };
-        copy::scatter(&copies, rows, &mut out, start, len);
+        copy::scatter(&copies, rows, &mut out, start, len, n >= STREAMING);
         odd += copies.count_odd(block.second, len);
         if first_is_direction {
             odd += copies.count_odd(block.first, len);

@@ -63,7 +63,7 @@ fn glb() -> Vec<u8> {
         r#","uri":"data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAAAAECAAEAAAA=""#,
         "",
     );
-    while text.len() % 4 != 0 {
+    while !text.len().is_multiple_of(4) {
         text.push(' ');
     }
     let mut binary = vec![0u8; 44];

@@ -172,13 +172,9 @@ impl Environment {
 
 /// The colour of this build from linear Rec.709: itself, or its luminance where there is one channel.
 pub fn rec709(rgb: [f32; 3]) -> Color<f32> {
-    let mut out = Color::splat(Channels(rgb).luminance());
-    if CHANNELS == 3 {
-        for c in 0..CHANNELS {
-            out.0[c] = rgb[c];
-        }
-    }
-    out
+    let luminance = Channels(rgb).luminance();
+    let channel = |c: usize| if CHANNELS == rgb.len() { rgb[c] } else { luminance };
+    Channels(std::array::from_fn(channel))
 }
 
 /// Right, forward and up in the world.

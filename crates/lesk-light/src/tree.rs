@@ -130,12 +130,12 @@ fn split(lights: &[LightBounds], order: &mut [u32], depth: u32) -> usize {
         }
     }
     let widest = (0..3).max_by(|&a, &b| (hi[a] - lo[a]).total_cmp(&(hi[b] - lo[b]))).unwrap_or(0);
-    if depth < BALANCED_BELOW {
-        if let Some((axis, bucket)) = best_plane(lights, order, lo, hi) {
-            let first = partition(order, |i| bucket_of(lights, i, axis, lo, hi) <= bucket);
-            if 0 < first && first < order.len() {
-                return first;
-            }
+    if depth < BALANCED_BELOW
+        && let Some((axis, bucket)) = best_plane(lights, order, lo, hi)
+    {
+        let first = partition(order, |i| bucket_of(lights, i, axis, lo, hi) <= bucket);
+        if 0 < first && first < order.len() {
+            return first;
         }
     }
     let key = |i: &u32| lights[*i as usize].center().to_array()[widest];

@@ -46,7 +46,7 @@ fn mixed(count: usize, seed: u64) -> Vec<Light> {
         match i % 5 {
             0 => Light::Point(Point::new(p, strength).unwrap()),
             1 => Light::Spot(Spot::new(p, d, strength, [0.2, 0.5]).unwrap()),
-            2 => Light::Area(Area::new(&Geometry::Rectangle, &place, strength, i % 2 == 0).unwrap()),
+            2 => Light::Area(Area::new(&Geometry::Rectangle, &place, strength, i.is_multiple_of(2)).unwrap()),
             3 => Light::Area(Area::new(&Geometry::Sphere, &place, strength, false).unwrap()),
             _ => Light::Area(Area::new(&Geometry::cube(), &place, strength, false).unwrap()),
         }

@@ -88,7 +88,8 @@ pub fn vector<T: Number>(rows: &Rows<T>, input: usize, i: usize) -> Vec3<T> {
 
 /// Whether a direction is not of unit length, or not finite.
 pub fn is_odd(v: Vec3<f64>) -> bool {
-    !((v.length_squared() - 1.0).abs() <= UNIT_TOLERANCE.into())
+    let is_unit = (v.length_squared() - 1.0).abs() <= UNIT_TOLERANCE.into();
+    !is_unit
 }
 
 pub fn reference(model: &dyn Scatter) -> PyResult<&'static Methods<f64>> {
@@ -103,7 +104,11 @@ pub enum Target<'py> {
 }
 
 pub fn rows_of<T>(out: &[T], width: usize) -> PyResult<usize> {
-    if out.len() % width == 0 { Ok(out.len() / width) } else { Err(value_error(format!("rows of {width} are needed"))) }
+    if out.len().is_multiple_of(width) {
+        Ok(out.len() / width)
+    } else {
+        Err(value_error(format!("rows of {width} are needed")))
+    }
 }
 
 /// The columns of parameters and of two vectors.

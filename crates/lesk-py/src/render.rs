@@ -148,11 +148,11 @@ impl Job<'_> {
         let (mut failed, mut saved) = (None, Instant::now());
         let mut observe = |progress: Progress, film: &Film| {
             *latest.lock().unwrap_or_else(std::sync::PoisonError::into_inner) = Some(progress);
-            if let Some((path, every)) = &self.checkpoint {
-                if saved.elapsed().as_secs_f64() >= *every {
-                    failed = checkpoint::save(path, &self.identity, film).err();
-                    saved = Instant::now();
-                }
+            if let Some((path, every)) = &self.checkpoint
+                && saved.elapsed().as_secs_f64() >= *every
+            {
+                failed = checkpoint::save(path, &self.identity, film).err();
+                saved = Instant::now();
             }
             if failed.is_some() || stop.load(Ordering::Relaxed) {
                 ControlFlow::Break(())

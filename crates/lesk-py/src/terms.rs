@@ -159,7 +159,7 @@ fn run<T: Number>(
     f: fn(&[&[T]], &mut [T]),
 ) -> PyResult<()> {
     let width = term.returns.1;
-    if arguments.len() != term.arguments.len() || out.len() % width != 0 {
+    if arguments.len() != term.arguments.len() || !out.len().is_multiple_of(width) {
         return Err(value_error(format!("{} arguments and rows of {width} are needed", term.arguments.len())));
     }
     let n = out.len() / width;

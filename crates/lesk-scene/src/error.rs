@@ -141,7 +141,7 @@ pub(crate) fn nearest<'a>(given: &str, known: impl IntoIterator<Item = &'a str>)
 }
 
 /// The hint for an unknown name: the nearest known one, else all of them.
-pub(crate) fn name_hint<'a>(given: &str, known: &[&'a str]) -> String {
+pub(crate) fn name_hint(given: &str, known: &[&str]) -> String {
     // a name of unbounded length would make the comparison slow
     let short: String = given.chars().take(64).collect();
     match nearest(&short, known.iter().copied()) {

@@ -70,7 +70,8 @@ pub(super) fn build(items: &impl Items) -> Result<Tree> {
 
 fn binary_tree(items: &impl Items) -> Bvh2 {
     let references: Vec<_> = (0..items.len() as u32).map(|index| Reference { items, index }).collect();
-    let params = BvhBuildParams { max_prims_per_leaf: LANES as u32, ..BvhBuildParams::medium_build() };
+    // leaves are formed while collapsing, from any subtree that fits a block
+    let params = BvhBuildParams { max_prims_per_leaf: 1, ..BvhBuildParams::medium_build() };
     obvhs::bvh2::builder::build_bvh2(&references, params, &mut std::time::Duration::default())
 }
 

@@ -316,7 +316,8 @@ pub(super) fn walk<B: BoxTest, O: Others, const ANY: bool>(
     improved
 }
 
-/// The child to go on with; the others are pushed, farthest first.
+/// The child to go on with, the nearest; the others are pushed, farthest first. With `ANY`, in no order and without
+/// distances: nothing shortens the ray.
 #[inline(always)]
 fn choose<const ANY: bool>(
     node: &Node,
@@ -328,12 +329,18 @@ fn choose<const ANY: bool>(
     let take = |mask: &mut u32| {
         let slot = (mask.trailing_zeros() & 7) as usize;
         *mask &= *mask - 1;
-        word(entry[slot], node.child[slot])
+        word(if ANY { 0.0 } else { entry[slot] }, node.child[slot])
     };
     if mask == 0 {
         return None;
     }
     let first = take(&mut mask);
+    if ANY {
+        while mask != 0 {
+            let next = take(&mut mask);
+            push(stack, len, next);
+        }
+    }
     if mask == 0 {
         return Some(Child(first as u32));
     }
@@ -347,7 +354,7 @@ fn choose<const ANY: bool>(
     push(stack, len, near);
     while mask != 0 {
         let next = take(&mut mask);
-        if ANY { push(stack, len, next) } else { insert(stack, len, base, next) }
+        insert(stack, len, base, next);
     }
     *len -= 1;
     // SAFETY: just written

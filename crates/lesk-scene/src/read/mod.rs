@@ -91,23 +91,23 @@ fn read(text: &str, folder: &Path) -> (SceneDescription, Vec<Problem>) {
 
 fn fill(scene: &mut SceneDescription, root: &Fields, problems: &mut Problems) {
     scene.title = root.text("title").unwrap_or_default().to_string();
-    if let Some(node) = root.node("camera") {
-        if let Some(fields) = Fields::of(node, &Expected::plain("camera", schema::CAMERA), problems) {
-            scene.film.ev100 = fields.number("ev100");
-            if let Some(camera) = camera::camera(&fields, problems) {
-                scene.camera = camera;
-            }
+    if let Some(node) = root.node("camera")
+        && let Some(fields) = Fields::of(node, &Expected::plain("camera", schema::CAMERA), problems)
+    {
+        scene.film.ev100 = fields.number("ev100");
+        if let Some(camera) = camera::camera(&fields, problems) {
+            scene.camera = camera;
         }
     }
-    if let Some(node) = root.node("film") {
-        if let Some(fields) = Fields::of(node, &Expected::plain("film", schema::FILM), problems) {
-            film(&mut scene.film, &fields, problems);
-        }
+    if let Some(node) = root.node("film")
+        && let Some(fields) = Fields::of(node, &Expected::plain("film", schema::FILM), problems)
+    {
+        film(&mut scene.film, &fields, problems);
     }
-    if let Some(node) = root.node("render") {
-        if let Some(fields) = Fields::of(node, &Expected::plain("render", schema::RENDER), problems) {
-            render(&mut scene.render, &fields);
-        }
+    if let Some(node) = root.node("render")
+        && let Some(fields) = Fields::of(node, &Expected::plain("render", schema::RENDER), problems)
+    {
+        render(&mut scene.render, &fields);
     }
     scene.materials = root.named("materials").iter().map(|e| materials::material(e, problems)).collect();
     scene.groups = root.named("groups").iter().map(|e| objects::group(e, problems)).collect();

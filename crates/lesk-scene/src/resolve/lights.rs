@@ -21,10 +21,10 @@ impl Resolver<'_> {
                 self.lights.push(light);
             }
         }
-        if let Some(environment) = &d.environment {
-            if let Some(light) = self.environment(environment) {
-                self.lights.push(light);
-            }
+        if let Some(environment) = &d.environment
+            && let Some(light) = self.environment(environment)
+        {
+            self.lights.push(light);
         }
     }
 
