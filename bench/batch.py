@@ -143,7 +143,7 @@ rng = np.random.default_rng(1)
 v = rng.normal(size=(2, 10_000, 3)).astype(np.float32); v[..., 2] = abs(v[..., 2])
 wi, wo = v / np.linalg.norm(v, axis=-1, keepdims=True)
 u = rng.random((10_000, 3), dtype=np.float32)
-start = time.perf_counter()
+start = time.process_time()
 """
 FIRST_LESK = (
     FIRST_CALL
@@ -151,9 +151,9 @@ FIRST_LESK = (
 import lesk
 lesk.models
 model = lesk.models.{name}(**{params})
-loaded = time.perf_counter()
+loaded = time.process_time()
 {call}
-print(json.dumps([loaded - start, time.perf_counter() - loaded]))
+print(json.dumps([loaded - start, time.process_time() - loaded]))
 """
 )
 FIRST_MITSUBA = (
@@ -166,9 +166,9 @@ call = sides.calls({description})[{what!r}]
 import drjit as dr
 dr.flush_kernel_cache()
 dr.set_flag(dr.JitFlag.KernelHistory, False)
-loaded = time.perf_counter()
+loaded = time.process_time()
 call()
-print(json.dumps([loaded - start, time.perf_counter() - loaded]))
+print(json.dumps([loaded - start, time.process_time() - loaded]))
 """
 )
 
@@ -183,7 +183,9 @@ def fresh(code: str) -> list[float]:
 
 def first_calls(rounds: int) -> Table:
     """The first call in a fresh process, 10,000 directions, after imports."""
-    table = Table("First call in a fresh process, 10,000 directions, ms after imports", "Mitsuba llvm_ad_rgb")
+    table = Table(
+        "First call in a fresh process, 10,000 directions, ms of processor time after imports", "Mitsuba llvm_ad_rgb"
+    )
     calls = {"eval": "model.eval(wi, wo)", "sample": "model.sample(wo, u)"}
     for title, (name, params, description) in PAIRS.items():
         for what, call in calls.items():

@@ -3,9 +3,13 @@
 from __future__ import annotations
 
 import itertools
+import os
 import statistics
+import subprocess
+import sys
 import tempfile
 from collections.abc import Callable
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
@@ -13,6 +17,7 @@ from scenes import SCENES, Scene
 from table import Row, Table
 from timing import clock
 
+HERE = Path(__file__).resolve().parent
 TARGET = 1e-2
 Render = Callable[[int], tuple[np.ndarray, float]]
 
@@ -57,41 +62,79 @@ def mitsuba_render(scene: Scene, size: int, spp: int) -> Render:
     return render
 
 
-def compare(name: str, scene: Scene, size: int, spp: int, seeds: int, table: Table) -> None:
-    """Two rows: Msamples/s, and seconds to the error."""
+@dataclass(frozen=True)
+class Measured:
+    """One renderer on one scene: Msamples/s, seconds to the target error, mean of the pictures, relMSE99 times spp."""
+
+    rate: float
+    to_target: float
+    mean: float
+    cost: float
+
+    @staticmethod
+    def of(pictures: list[np.ndarray], seconds: list[float], spp: int) -> Measured:
+        """From pictures of independent seeds; the variance falls as 1 / samples."""
+        median, error = statistics.median(seconds), rel_mse_99(pictures)
+        samples = pictures[0].shape[0] * pictures[0].shape[1] * spp
+        return Measured(samples / median * 1e-6, median * error / TARGET, float(np.mean(pictures)), error * spp)
+
+
+def side_by_side(scene: Scene, size: int, spp: int, seeds: int) -> tuple[Measured, Measured]:
+    """Lesk and Mitsuba in turns."""
     with tempfile.TemporaryDirectory() as folder:
-        renders = {"lesk": lesk_render(scene, Path(folder), size, spp), "mitsuba": mitsuba_render(scene, size, spp)}
-        renders["mitsuba"](99)  # compiles
-        done: dict[str, list] = {who: [] for who in renders}
+        renders = (lesk_render(scene, Path(folder), size, spp), mitsuba_render(scene, size, spp))
+        renders[1](99)  # compiles
+        done: tuple[list, list] = ([], [])
         for seed in range(seeds):
-            for who, render in renders.items():
-                done[who].append(render(seed))
-    seconds = {who: statistics.median(t for _, t in runs) for who, runs in done.items()}
-    pictures = {who: [p for p, _ in runs] for who, runs in done.items()}
-    rate = {who: size * size * spp / t * 1e-6 for who, t in seconds.items()}
-    error = {who: rel_mse_99(p) for who, p in pictures.items()}
-    # variance falls as 1 / samples
-    to_target = {who: seconds[who] * error[who] / TARGET for who in renders}
-    means = {who: np.mean(p) for who, p in pictures.items()}
-    row = Row(f"{name}, Msamples/s", f"{rate['lesk']:.2f}", f"{rate['mitsuba']:.2f}", rate["lesk"] / rate["mitsuba"])
-    row.must, row.aim = scene.rate_targets
-    row.note = f"mean of the pictures {means['lesk'] / means['mitsuba'] - 1:+.1%}"
+            for runs, render in zip(done, renders, strict=True):
+                runs.append(render(seed))
+    ours, theirs = (Measured.of(*map(list, zip(*runs, strict=True)), spp) for runs in done)
+    return ours, theirs
+
+
+def cycles(name: str, size: int, spp: int, seeds: int) -> Measured | None:
+    """Cycles in a process of its own; None, and a line that says so, where bpy is not installed.
+
+    The environment variable LESK_CYCLES_PYTHON may name a Python that has bpy.
+    """
+    python = os.environ.get("LESK_CYCLES_PYTHON", sys.executable)
+    with tempfile.TemporaryDirectory() as folder:
+        out = Path(folder) / "cycles.npz"
+        program = [python, str(HERE / "cycles_side.py"), name, *map(str, (size, spp, seeds)), str(out)]
+        done = subprocess.run(program, capture_output=True, text=True)
+        if done.returncode or not out.exists():
+            lines = done.stderr.strip().splitlines() or ["it ended without a picture"]
+            print(f"skipped: Cycles on {name} ({lines[-1]})")
+            return None
+        data = np.load(out)
+        return Measured.of(list(data["pictures"]), list(data["seconds"]), spp)
+
+
+def add_rows(table: Table, name: str, scene: Scene, ours: Measured, theirs: Measured) -> None:
+    must, aim = scene.rate_targets if "Mitsuba" in table.peer else (None, None)
+    ratio = ours.rate / theirs.rate
+    row = Row(f"{name}, Msamples/s", f"{ours.rate:.2f}", f"{theirs.rate:.2f}", ratio, must, aim)
+    row.note = f"mean of the pictures {ours.mean / theirs.mean - 1:+.1%}"
     table.add(row)
-    ratio = to_target["mitsuba"] / to_target["lesk"]
     must, aim = scene.error_targets
-    row = Row(
-        f"{name}, s to relMSE99 1e-2", f"{to_target['lesk']:.2f}", f"{to_target['mitsuba']:.2f}", ratio, must, aim
-    )
-    row.note = f"relMSE99 x spp {error['lesk'] * spp:.2f} and {error['mitsuba'] * spp:.2f}"
+    ratio = theirs.to_target / ours.to_target
+    row = Row(f"{name}, s to relMSE99 1e-2", f"{ours.to_target:.2f}", f"{theirs.to_target:.2f}", ratio, must, aim)
+    row.note = f"relMSE99 x spp {ours.cost:.2f} and {theirs.cost:.2f}"
     table.add(row)
 
 
 def run(quick: bool) -> list[Table]:
-    """One table; Cycles has its own where it is installed."""
+    """A table against Mitsuba, and one against Cycles where bpy is installed."""
     from mitsuba_side import VARIANT
 
     size, spp, seeds = (256, 16, 2) if quick else (512, 32, 3)
-    table = Table(f"Path tracing, {size} x {size} pixels, {spp} samples, one thread", f"Mitsuba {VARIANT}")
+    about = f"{size} x {size} pixels, {spp} samples, one thread"
+    first = Table(f"Path tracing, {about}", f"Mitsuba {VARIANT}")
+    second = Table(f"Path tracing against Cycles, {about}", "Cycles")
     for name, make in SCENES.items():
-        compare(name, make(), size, spp, seeds, table)
-    return [table]
+        scene = make()
+        ours, mitsuba = side_by_side(scene, size, spp, seeds)
+        add_rows(first, name, scene, ours, mitsuba)
+        if blender := cycles(name, size, spp, seeds):
+            add_rows(second, name, scene, ours, blender)
+    return [first, second] if second.rows else [first]
