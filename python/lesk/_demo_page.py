@@ -30,7 +30,7 @@ dt { color: var(--faint); font-size: .8rem } dd { margin: 0; font-variant-numeri
 .models { display: grid; grid-template-columns: repeat(auto-fill, minmax(340px, 1fr)); gap: 20px }
 article { border: 1px solid var(--line); border-radius: 10px; overflow: hidden }
 article .pair { display: grid; grid-template-columns: 2fr 3fr; align-items: center }
-article img { width: 100%; display: block }
+article img { width: 100%; height: 150px; display: block; object-fit: contain; padding: 8px 4px 0 }
 article h3 { margin: .8rem 1rem 0; font: 600 1rem ui-monospace, monospace }
 article p { margin: .1rem 1rem 1rem; font-size: .85rem; color: var(--faint) }
 .scroll { overflow-x: auto } table { border-collapse: collapse; font-size: .85rem; width: 100% }

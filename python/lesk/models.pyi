@@ -416,7 +416,7 @@ class ggx_conductor(Model):
     Notes
     -----
     Claims, each with a test: reciprocal, passive, samples itself, isotropic where `alpha_x = alpha_y`,
-    non negative, smooth.
+    non negative, smooth where `k >= 0.01`.
 
     References
     ----------
@@ -457,7 +457,7 @@ class ggx_conductor_separable(Model):
     Notes
     -----
     Claims, each with a test: reciprocal, passive, samples itself, isotropic where `alpha_x = alpha_y`,
-    non negative, smooth.
+    non negative, smooth where `k >= 0.01`.
 
     References
     ----------
@@ -481,13 +481,14 @@ class rough_dielectric(Model):
     f_t = \frac{|\omega_i\cdot h|\,|\omega_o\cdot h|}{|\cos\theta_i|\,|\cos\theta_o|}
     \frac{\eta_o^2\,(1-F)\,D\,G}{(\eta_i\,\omega_i\cdot h + \eta_o\,\omega_o\cdot h)^2} $$
 
-    Single scattering only: a rough surface loses energy (see the albedo plot). Between equal media there would be no
-    density, as every facet lets light pass straight on: an index within 1/1024 of 1 counts as 1 + 1/1024.
+    Single scattering only: a rough surface loses energy (see the albedo plot).
 
     Parameters
     ----------
     ior : array_like of shape (...), default 1.5
-        Refractive index below the surface divided by the one above. 0.25 to 4, dimensionless.
+        Refractive index below the surface divided by the one above. Equal media have no density: every
+        facet would let light pass straight on. For a thinner medium below, turn the surface over. 1.001
+        to 4, dimensionless.
     alpha_x : array_like of shape (...), default 0.2
         Width of the facet slopes along the tangent. 0.001 to 1, dimensionless.
     alpha_y : array_like of shape (...), default 0.2
@@ -496,7 +497,7 @@ class rough_dielectric(Model):
     Notes
     -----
     Claims, each with a test: reciprocal, passive, samples itself, isotropic where `alpha_x = alpha_y`,
-    non negative, smooth.
+    non negative.
 
     References
     ----------
@@ -551,7 +552,7 @@ class disney_2012(Model):
     Notes
     -----
     Claims, each with a test: reciprocal, samples itself, isotropic where `anisotropic = 0`, non
-    negative, smooth where `roughness > 0.0563`.
+    negative, smooth where `roughness > 0.0563 and base_color >= 0.01`.
 
     References
     ----------

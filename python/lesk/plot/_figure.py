@@ -120,7 +120,8 @@ def _color(value: npt.NDArray[Any]) -> str:
 def direction(theta: npt.ArrayLike, phi: npt.ArrayLike = 0.0) -> Array:
     """Unit vectors from polar angle and azimuth in radians."""
     theta, phi = np.broadcast_arrays(np.asarray(theta, float), np.asarray(phi, float))
-    return np.stack([np.sin(theta) * np.cos(phi), np.sin(theta) * np.sin(phi), np.cos(theta)], axis=-1)
+    x, y = np.sin(theta) * np.cos(phi), np.sin(theta) * np.sin(phi)
+    return cast("Array", np.stack([x, y, np.cos(theta)], axis=-1))
 
 
 def polar_angle(name: str, degrees: float, most: float = 90.0) -> float:
@@ -143,4 +144,4 @@ def is_grey(rgb: npt.NDArray[Any]) -> bool:
 def warped(center: float, low: float, high: float, count: int, sharpness: float = 5.0) -> Array:
     """Numbers from low to high that are dense around a center: narrow lobes keep their shape."""
     t = np.sinh(sharpness * np.linspace(-1, 1, count)) / np.sinh(sharpness)
-    return np.where(t < 0, center + t * (center - low), center + t * (high - center))
+    return cast("Array", np.where(t < 0, center + t * (center - low), center + t * (high - center)))

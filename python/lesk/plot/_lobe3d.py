@@ -81,6 +81,6 @@ def lobe3d(model: Model, *, theta_i_deg: float = 45, phi_i_deg: float = 0, resol
         if peak > 0:
             mappable = ScalarMappable(Normalize(0, peak), "viridis")
             bar = fig.colorbar(mappable, ax=axes, label="f, 1/sr", shrink=0.6, pad=0.0)
-            bar.outline.set_visible(False)  # type: ignore[operator]
+            bar.outline.set_visible(False)
         fig.suptitle(f"{label(model)}\nf for light from {theta_i_deg:g}°", fontsize=11)
     return fig

@@ -78,7 +78,13 @@ def polar(
         _radii(axes, top, peak > 0)
         axes.plot([-theta_i, -theta_i], [0, top], color=LIGHT, linewidth=2.2, zorder=2, clip_on=False)
         axes.annotate(
-            "light", (-theta_i, top), (-14, 5), textcoords="offset points", ha="right", color=LIGHT, annotation_clip=False
+            "light",
+            (-theta_i, top),
+            (-14, 5),
+            textcoords="offset points",
+            ha="right",
+            color=LIGHT,
+            annotation_clip=False,
         )
         if turn == 0:
             for i, m in enumerate(models):

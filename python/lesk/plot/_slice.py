@@ -55,7 +55,7 @@ def slice(model: Model, *, phi_d_deg: float = 90, resolution: int = 361) -> Plot
         colors = colormaps["viridis"].copy()
         image = axes.pcolormesh(np.degrees(edges), np.degrees(edges), f, norm=norm, cmap=colors, rasterized=True)
         bar = fig.colorbar(image, ax=axes, label="f, 1/sr", extend="both" if low > positive.min() else "max")
-        bar.outline.set_visible(False)  # type: ignore[operator]
+        bar.outline.set_visible(False)
     return fig
 
 

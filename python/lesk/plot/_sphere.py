@@ -18,7 +18,9 @@ _BOUNCES = 6
 """Scattering events of a path; more than one happens inside glass only."""
 
 
-def sphere(model: Model, *, resolution: int = 320, samples: int = 64, exposure: float = 1.0, title: bool = True) -> Plot:
+def sphere(
+    model: Model, *, resolution: int = 320, samples: int = 64, exposure: float = 1.0, title: bool = True
+) -> Plot:
     """Plot a sphere of the model, lit by a studio of two soft boxes, a sky and a floor.
 
     Parameters
@@ -84,7 +86,7 @@ def _scatter(model: Model, points: Single, u: Single, index: int) -> Single:
         local = _unit(np.einsum("nij,nj->ni", frame, wo))
         drawn = model.sample(local, u[active])
         direction = np.einsum("nij,ni->nj", frame, drawn.wi)
-        weight = weight * drawn.weight
+        weight = np.asarray(weight * drawn.weight, np.float32)
         leaves, alive = drawn.wi[:, 2] > 0, drawn.pdf > 0
         out = leaves & alive
         light[active[out]] += weight[out] * _studio(direction[out])
@@ -103,7 +105,7 @@ def _scatter(model: Model, points: Single, u: Single, index: int) -> Single:
 
 
 def _unit(v: Single) -> Single:
-    return v / np.linalg.norm(v, axis=-1, keepdims=True)
+    return np.asarray(v / np.linalg.norm(v, axis=-1, keepdims=True), np.float32)
 
 
 def _frames(normals: Single) -> Single:

@@ -93,7 +93,7 @@ def beckmann(h: npt.ArrayLike, alpha_x: npt.ArrayLike, alpha_y: npt.ArrayLike) -
 
 
 def beckmann_tan2(h: npt.ArrayLike, alpha_x: npt.ArrayLike, alpha_y: npt.ArrayLike) -> Array:
-    """The exponent of Beckmann's distribution: squared slope of the facet in units of alpha.
+    """The exponent of Beckmann's distribution: the squared slope of the facet in units of alpha.
 
     Parameters
     ----------
