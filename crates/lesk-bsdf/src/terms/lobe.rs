@@ -25,7 +25,7 @@ pub fn cos_power<R: Real>(cos: R, n: R) -> R {
 /// cos^n of the polar angle of `h` (z > 0, any length): (1 + tan^2)^(-n/2), as the cosine itself has no digits left for
 /// narrow lobes.
 #[inline(always)]
-pub fn polar_cos_power<R: Real>(h: Vec3<R>, n: R) -> R {
+pub(crate) fn polar_cos_power<R: Real>(h: Vec3<R>, n: R) -> R {
     let tan2 = (h.x.fma(h.x, h.y * h.y) / (h.z * h.z)).named("tan2");
     let sec2 = (R::ONE + tan2).named("sec2");
     // ln(1 + tan2): the second term is what rounding took from the sum
@@ -48,7 +48,7 @@ pub fn phong_pdf<R: Real>(wi: Vec3<R>, wo: Vec3<R>, n: R) -> R {
 
 /// The density of drawing from a lobe of density `first` with probability `share`, else from one of density `second`.
 #[inline(always)]
-pub fn mixture<R: Real>(share: R, first: R, second: R) -> R {
+pub(crate) fn mixture<R: Real>(share: R, first: R, second: R) -> R {
     share.fma(first, share.one_minus() * second)
 }
 
