@@ -6,7 +6,7 @@ pictures come from that one definition.
 >>> import lesk
 >>> satin = lesk.models.ggx(alpha_x=0.2, alpha_y=0.4)
 >>> satin.eval([0.0, 0.6, 0.8], [0.0, 0.0, 1.0]).round(4).tolist()
-[0.2982, 0.2982, 0.2982]
+[0.5231, 0.5231, 0.5231]
 
 - `lesk.models`: every model as a class: values, draws, densities, gradients, shader source.
 - `lesk.terms`: the parts of models, alone: distributions of facets, masking, Fresnel.

@@ -64,16 +64,18 @@ def spread(array: Array, leading: tuple[int, ...]) -> Array:
 def require_directions(**named: Array) -> None:
     """Raise for vectors of another length than 1, and warn of those that are not finite."""
     for name, array in named.items():
-        length2 = np.einsum("...i,...i", array, array, dtype=np.float64)
-        finite = np.isfinite(length2)
-        odd = finite & (np.abs(length2 - 1) > 1e-4)
+        finite = np.isfinite(array).all(axis=-1)
+        with np.errstate(over="ignore", invalid="ignore"):
+            length2 = np.einsum("...i,...i", array, array, dtype=np.float64)
+            # the square of a long vector overflows: infinite, and too long
+            odd = finite & (np.abs(length2 - 1) > 1e-4)
         count = int(np.count_nonzero(odd))
         if count:
             first = np.unravel_index(int(np.argmax(odd)), odd.shape)
             place = f", the first at index {tuple(map(int, first))}" if odd.ndim else ""
             raise ParameterError(
                 f"`{name}` is not of unit length: {count} of {odd.size} vectors{place} with length "
-                f"{math.sqrt(length2[first]):.6g}, but 1 within 5e-5 is accepted\n"
+                f"{math.hypot(*array[first]):.6g}, but 1 within 5e-5 is accepted\n"
                 f"hint: divide by numpy.linalg.norm({name}, axis=-1, keepdims=True)"
             )
         if not finite.all():

@@ -179,7 +179,7 @@ class Model:
         --------
         >>> import lesk, numpy as np
         >>> wi, weight, pdf, delta = lesk.models.mirror(reflectance=0.9).sample([0.6, 0.0, 0.8])
-        >>> wi.tolist(), weight.tolist(), bool(delta)
+        >>> (wi + 0.0).tolist(), weight.tolist(), bool(delta)
         ([-0.6, 0.0, 0.8], [0.9, 0.9, 0.9], True)
         """
         wo = vectors("wo", wo)
