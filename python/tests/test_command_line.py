@@ -163,7 +163,9 @@ def test_layers_and_picture_can_be_read_back(scene: Path, tmp_path: Path) -> Non
     assert lesk.image.read(path).shape == (32, 48, 3)
 
 
-def test_failed_write_keeps_the_previous_picture(scene: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_failed_write_keeps_the_previous_picture(
+    scene: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
     full = tmp_path / "full.png"
     full.symlink_to("/dev/full")
     assert main(["render", str(scene), "-o", str(full), "--spp", "1", "--quiet"]) == 2
@@ -186,7 +188,9 @@ def test_killed_render_resumes_to_the_same_bytes(scene: Path, tmp_path: Path) ->
     assert resumed.read_bytes() == whole.read_bytes()
 
 
-def test_checkpoint_of_another_picture_is_refused(scene: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_checkpoint_of_another_picture_is_refused(
+    scene: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
     state = tmp_path / "state"
     with pytest.raises(lesk.RenderInterrupted):
         lesk.render(scene, spp=100_000, checkpoint=state, progress=_interrupt)

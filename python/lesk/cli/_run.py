@@ -86,6 +86,8 @@ def direction(text: str, what: str) -> np.ndarray[Any, np.dtype[np.float64]]:
     """Read `POLAR,AZIMUTH` in degrees as a unit vector."""
     angles = numbers(text, what)
     if len(angles) != 2:
-        raise ParameterError(f"`{what}` is `{text}`, but a polar angle and an azimuth in degrees are accepted, like `30,0`")
+        raise ParameterError(
+            f"`{what}` is `{text}`, but a polar angle and an azimuth in degrees are accepted, like `30,0`"
+        )
     theta, phi = np.radians(angles)
     return np.array([np.sin(theta) * np.cos(phi), np.sin(theta) * np.sin(phi), np.cos(theta)])

@@ -34,12 +34,22 @@ def main(
     ]
     if json:
         angles = {"wi_deg": [float(a) for a in wi.split(",")], "wo_deg": [float(a) for a in wo.split(",")]}
-        emit({"model": name, "params": dict(model.params), **angles, "f": f, "pdf": pdf, "albedo": albedo, "delta": delta})
+        emit(
+            {
+                "model": name,
+                "params": dict(model.params),
+                **angles,
+                "f": f,
+                "pdf": pdf,
+                "albedo": albedo,
+                "delta": delta,
+            }
+        )
         return
     print(f"f       {_text(f)} 1/sr\npdf     {pdf:.8g} 1/sr\nalbedo  {_text(albedo, 4)}")
     for lobe in delta:
         print(f"delta   weight {_text(lobe['weight'])}, probability {lobe['probability']:.6g}, wi {_text(lobe['wi'])}")
 
 
-def _text(values: np.ndarray, digits: int = 8) -> str:  # type: ignore[type-arg]
+def _text(values: np.ndarray, digits: int = 8) -> str:
     return " ".join(f"{value:.{digits}g}" for value in np.atleast_1d(values))

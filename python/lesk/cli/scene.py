@@ -45,6 +45,8 @@ def main(
         return
     width, height = scene.size
     print(f"{file}: fine. {scene.title}")
-    print(f"{width} x {height} pixels, {len(scene.objects)} objects, {len(scene.materials)} materials, {scene.light_count} lights")
+    print(
+        f"{width} x {height} pixels, {len(scene.objects)} objects, {len(scene.materials)} materials, {scene.light_count} lights"
+    )
     for note in scene.notes:
         print(f"note: {note}")

@@ -19,7 +19,9 @@ def main(
     part: Annotated[list[str] | None, typer.Option(help="eval, pdf, sample or draw; may be repeated.")] = None,
     math: Annotated[str, typer.Option(help="`builtin`: the target's functions; `exact`: own polynomials.")] = "builtin",
     complete: Annotated[bool, typer.Option("--complete", help="A complete shader, not functions to paste.")] = False,
-    output: Annotated[Path | None, typer.Option("-o", "--output", help="The file; without it, standard output.")] = None,
+    output: Annotated[
+        Path | None, typer.Option("-o", "--output", help="The file; without it, standard output.")
+    ] = None,
     json: Json = False,
 ) -> None:
     """Write a model as shader source.
