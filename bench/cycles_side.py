@@ -1,4 +1,4 @@
-"""Cycles (bpy) on one scene of `scenes.py`: python cycles_side.py SCENE SIZE SPP SEEDS OUT.npz
+"""Cycles (bpy) on one scene of `scenes.py`: python cycles_side.py SCENE SIZE SPP SEEDS OUT.npz.
 
 A program of its own, because bpy exists for one version of Python and changes the process that loads it. The file holds
 `pictures` (seeds, h, w, 3) and `seconds`, processor time of each, the fixed cost of a render included.
