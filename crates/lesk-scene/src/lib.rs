@@ -1,4 +1,51 @@
-//! Scene files: text to data, all errors at once.
+//! Scene files: text to data, all errors at once. Level 4 of Lesk.
+//!
+//! ```
+//! use lesk_scene::{MAX_PARAMS, Scene};
+//!
+//! let scene = Scene::parse(
+//!     r#"
+//!     version = 1
+//!     [camera]
+//!     eye = [0, -4, 1.5]
+//!     target = [0, 0, 0.5]
+//!     [materials.clay]
+//!     model = "lambert"
+//!     reflectance = [0.5, 0.3, 0.2]
+//!     [[objects]]
+//!     shape = "sphere"
+//!     radius = "50 cm"
+//!     material = "clay"
+//!     [[lights]]
+//!     type = "point"
+//!     position = [1, -2, 3]
+//!     flux = "1100 lm"
+//!     "#,
+//!     ".",
+//! )?;
+//! let ray = scene.camera.ray([320.0, 300.0], [0.5, 0.5]);
+//! let hit = scene.world.intersect(&ray).expect("the sphere is in the middle");
+//! let surface = scene.world.surface(&ray, &hit);
+//! let material = scene.material(&surface).expect("it has one");
+//! let mut table = [0.0; MAX_PARAMS];
+//! assert_eq!(material.params(surface.uv, &mut table), [0.5, 0.3, 0.2]);
+//! # Ok::<(), lesk_scene::SceneError>(())
+//! ```
+//!
+//! - [`Scene::load`] and [`Scene::parse`]: a TOML file, everything that it names, and every mistake with its line.
+//! - [`description`]: the same as plain structures, for programs; [`SceneDescription::build`] gives the scene.
+//! - [`Scene`]: what a tracer needs: world, objects, materials, lights, camera, film, settings.
+//! - [`Material::params`]: a model's parameter table at a point of a surface.
+//! - [`json_schema`]: what a file may contain, from the table that the reader itself checks.
+//!
+//! **Files**: quantities with a dimension are text with a unit (`"1100 lm"`, `"5 cm"`, `"2700 K"`); bare numbers are
+//! dimensionless, colours in linear Rec.709, or positions in metres. +z is up unless a key says otherwise.
+//!
+//! **Files of other programs**: all meshes, materials, cameras and punctual lights; glTF keeps its own axes (turn it by
+//! `{ rotate = "90 deg", axis = [1, 0, 0] }`). Emission is taken as cd/m². Normal maps, opacity and emission textures are
+//! left out, and noted.
+//!
+//! It traces nothing and draws nothing; there are no media, no motion and no displacement.
 
 mod camera;
 pub mod description;

@@ -2,6 +2,7 @@
 
 mod camera;
 mod files;
+mod groups;
 mod import;
 mod lights;
 mod materials;
@@ -98,11 +99,14 @@ impl<'a> Resolver<'a> {
     }
 
     fn finish(mut self, camera: Option<Camera>) -> Result<Scene, Vec<Problem>> {
+        let (Some(camera), true) = (camera, self.problems.is_empty()) else {
+            return Err(self.problems);
+        };
         let lights = std::mem::take(&mut self.lights);
         let lights = self.check(Place::NONE, "", Lights::new(lights));
-        let builder = std::mem::take(&mut self.world);
-        let world = if self.problems.is_empty() { self.check(Place::NONE, "", builder.build()) } else { None };
-        let (Some(camera), Some(world), Some(lights), true) = (camera, world, lights, self.problems.is_empty()) else {
+        let world = std::mem::take(&mut self.world).build();
+        let world = self.check(Place::NONE, "", world);
+        let (Some(world), Some(lights)) = (world, lights) else {
             return Err(self.problems);
         };
         if lights.is_empty() {

@@ -1,6 +1,7 @@
 //! Objects: shapes, files and groups become instances.
 
 use super::Resolver;
+use super::groups::Groups;
 use crate::description::{GroupDescription, Normals, ObjectDescription, Shape};
 use crate::error::{Place, Problem, list, name_hint};
 use crate::scene::Object;
@@ -9,9 +10,8 @@ use lesk_light::{Area, Light};
 use std::collections::HashMap;
 use std::sync::Arc;
 
-/// Most instances of a scene, and most groups in groups.
+/// Most instances of a scene.
 const MAX_INSTANCES: usize = 1 << 22;
-const MAX_NESTING: usize = 64;
 /// Largest subdivision of the teapot: 32 patches of 256 x 256 cells are 4.2 million triangles.
 pub(crate) const MAX_TEAPOT_LEVEL: u32 = 256;
 
@@ -27,15 +27,6 @@ pub(super) struct Geometries {
     kept: Vec<Arc<Mesh>>,
 }
 
-/// Where an object is placed from.
-struct Context<'a> {
-    parent: Transform,
-    groups: &'a HashMap<&'a str, &'a GroupDescription>,
-    depth: usize,
-    /// Some group contains itself: none is placed.
-    cyclic: bool,
-}
-
 /// What stands at a place, before it is an instance.
 pub(super) struct Part<'a> {
     pub name: &'a str,
@@ -48,56 +39,42 @@ pub(super) struct Part<'a> {
 impl Resolver<'_> {
     pub(super) fn objects(&mut self) {
         let d = self.description;
-        let mut groups: HashMap<&str, &GroupDescription> = HashMap::new();
-        for group in &d.groups {
-            if groups.insert(&group.name, group).is_some() {
-                self.problem(Problem::new(group.place, format!("group `{}` is there twice", group.name)));
-            }
+        let mut groups = Groups::new(&d.groups, self);
+        // a group that is never placed may have mistakes too
+        for object in d.groups.iter().flat_map(|g| &g.objects) {
+            object.material.as_ref().map(|name| self.material_number(name, object.place));
         }
-        let cyclic = self.has_cycle(&groups);
-        let context = Context { parent: Transform::IDENTITY, groups: &groups, depth: 0, cyclic };
         for object in &d.objects {
-            self.object(object, &context);
-        }
-    }
-
-    /// Whether some group contains itself; says which.
-    fn has_cycle(&mut self, groups: &HashMap<&str, &GroupDescription>) -> bool {
-        // 1: on the way, 2: done; an explicit stack, since groups may be nested deeply
-        let mut state: HashMap<&str, u8> = HashMap::new();
-        let mut found = false;
-        for start in &self.description.groups {
-            let mut stack = vec![(start.name.as_str(), 0)];
-            while let Some((name, next)) = stack.pop() {
-                let Some(group) = groups.get(name) else { continue };
-                if next == 0 && state.insert(name, 1) == Some(2) {
-                    state.insert(name, 2);
-                    continue;
+            match &object.shape {
+                Shape::Group(name) => {
+                    if let Some(group) = groups.place(name, object, self) {
+                        self.group(group, object.transform, &groups);
+                    }
                 }
-                let Some(child) = group.objects.get(next) else {
-                    state.insert(name, 2);
-                    continue;
-                };
-                stack.push((name, next + 1));
-                let Shape::Group(inner) = &child.shape else { continue };
-                if state.get(inner.as_str()) == Some(&1) {
-                    let way: Vec<&str> = stack.iter().map(|(n, _)| *n).skip_while(|n| n != inner).collect();
-                    let text = format!("group `{inner}` contains itself: {} -> {inner}", way.join(" -> "));
-                    self.problem(Problem::new(child.place, text));
-                    found = true;
-                } else if !state.contains_key(inner.as_str()) {
-                    stack.push((inner, 0));
-                }
+                _ => self.object(object, Transform::IDENTITY),
             }
         }
-        found
     }
 
-    fn object(&mut self, d: &ObjectDescription, context: &Context) {
-        let transform = context.parent * d.transform;
-        if let Shape::Group(name) = &d.shape {
-            return self.group(d, name, transform, context);
+    /// Places the objects of a group whose nesting has been checked.
+    fn group(&mut self, group: &GroupDescription, transform: Transform, groups: &Groups) {
+        for object in &group.objects {
+            if self.problems.len() >= super::MAX_PROBLEMS {
+                return;
+            }
+            match &object.shape {
+                Shape::Group(name) => {
+                    if let Some(inner) = groups.find(name, object, self) {
+                        self.group(inner, transform * object.transform, groups);
+                    }
+                }
+                _ => self.object(object, transform),
+            }
         }
+    }
+
+    fn object(&mut self, d: &ObjectDescription, parent: Transform) {
+        let transform = parent * d.transform;
         let material = match &d.material {
             Some(name) => match self.material_number(name, d.place) {
                 Some(number) => Some(number),
@@ -118,41 +95,6 @@ impl Resolver<'_> {
         let Some((geometry, size)) = self.shape(d) else { return };
         let part = Part { name: &d.name, geometry, transform: transform * size, material, place: d.place };
         self.instance(part, d);
-    }
-
-    fn group(&mut self, d: &ObjectDescription, name: &str, transform: Transform, context: &Context) {
-        let Some(group) = context.groups.get(name) else {
-            let known: Vec<&str> = self.description.groups.iter().map(|g| g.name.as_str()).collect();
-            self.problem(
-                Problem::new(d.place, format!("unknown group `{name}`, there are {}", list(&known)))
-                    .hint(name_hint(name, &known)),
-            );
-            return;
-        };
-        if d.material.is_some() || d.light.is_some() {
-            let text = format!("instance of group `{name}` has a material or light of its own");
-            self.problem(Problem::new(d.place, text).hint("give them to the objects of the group"));
-        }
-        if context.depth >= MAX_NESTING {
-            let text = format!("group `{name}` is nested more than {MAX_NESTING} deep");
-            self.problem(Problem::new(d.place, text));
-            return;
-        }
-        if context.cyclic {
-            return;
-        }
-        let inner = Context { parent: transform, groups: context.groups, depth: context.depth + 1, cyclic: false };
-        for object in &group.objects {
-            if self.is_full() {
-                return;
-            }
-            self.object(object, &inner);
-        }
-    }
-
-    /// Whether placing more is of no use: there are too many instances, or too many problems.
-    fn is_full(&self) -> bool {
-        self.objects.len() >= MAX_INSTANCES || self.problems.len() >= super::MAX_PROBLEMS
     }
 
     fn material_number(&mut self, name: &str, place: Place) -> Option<u32> {
