@@ -148,10 +148,10 @@ fn stored(name: &str) -> Vec<Mean> {
 fn rendered(name: &str) -> Vec<Mean> {
     let text = std::fs::read_to_string(folder().join(format!("{name}.toml"))).expect("the scene is in the project");
     let mut description = SceneDescription::parse(&text, folder()).expect("a legal scene");
-    if let Some(environment) = &mut description.environment {
-        if let EnvironmentKind::Map { image, .. } = &mut environment.kind {
-            *image = Picture::Image(Arc::new(environment_map()));
-        }
+    if let Some(environment) = &mut description.environment
+        && let EnvironmentKind::Map { image, .. } = &mut environment.kind
+    {
+        *image = Picture::Image(Arc::new(environment_map()));
     }
     let scene = description.build().expect("a legal scene");
     let pictures: Vec<Vec<f64>> = (0..PICTURES)
