@@ -1,6 +1,6 @@
 """Write the colour map viridis, 256 sRGB-encoded colours, from matplotlib.
 
-    python -m venv venv && venv/bin/pip install matplotlib && venv/bin/python data/colormaps/make.py
+python -m venv venv && venv/bin/pip install matplotlib && venv/bin/python data/colormaps/make.py
 """
 
 import pathlib

@@ -81,8 +81,8 @@ def rational(name, text, function, degree, lo, hi):
     q = np.ones_like(x)
     for _ in range(30):
         c = lawson(both, f, 1 / np.abs(f * q), rounds=100)
-        q = 1 + q_columns @ c[degree + 1:]
-    q_rounded = c[degree + 1:].astype(np.float32).astype(float)
+        q = 1 + q_columns @ c[degree + 1 :]
+    q_rounded = c[degree + 1 :].astype(np.float32).astype(float)
     q = 1 + q_columns @ q_rounded
     p = rounded_fit(p_columns, f * q, 1 / np.abs(f * q))
     worst = np.abs(p_columns @ p / q / f - 1).max()
@@ -100,7 +100,9 @@ def inverse_erf(w):
 def main():
     ln2, root = log(2), sqrt(mpf(2))
     half_pi = pi / 2 * mpf("1.001")
-    print("//! Minimax coefficients in ascending powers, as `data/poly/make.py` prints them. Every entry is an exact `f32`.")
+    print(
+        "//! Minimax coefficients in ascending powers, as `data/poly/make.py` prints them. Every entry is an exact `f32`."
+    )
     polynomial("EXP2", "2^x", lambda x: 2**x, 6, -0.5, 0.5, [1])
     polynomial("EXP", "e^x", exp, 6, -ln2 / 2 * 1.001, ln2 / 2 * 1.001, [1, 1])
     polynomial("LOG2", "log2(1 + t) / t", lambda t: log(1 + t) / ln2 / t, 8, 1 / root - 1, root - 1)
