@@ -51,8 +51,8 @@ def tile_means(picture: np.ndarray, side: int) -> np.ndarray:
 def z_scores(a: TileMeans, b: TileMeans) -> np.ndarray:
     """Difference of every tile in standard errors, (tiles, 3).
 
-    Welch's statistic; its Student distribution is turned into a normal one by Wallace's approximation (1959), which is
-    within 0.2 % in z for the numbers of pictures used here. Tiles that are black in both are 0.
+    Welch's statistic; its Student distribution is turned into a normal one by Wallace's approximation (1959).
+    Tiles that are black in both are 0.
     """
     error2 = a.variance + b.variance + (ROUNDING * np.maximum(a.mean, b.mean)) ** 2
     t = np.divide(a.mean - b.mean, np.sqrt(error2), out=np.zeros_like(error2), where=error2 > 0)
