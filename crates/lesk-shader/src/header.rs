@@ -78,6 +78,7 @@ fn part_line(model: &dyn Scatter, part: Part) -> String {
 fn parameter_line(spec: &ParamSpec, width: usize) -> String {
     let [low, high] = spec.range;
     let unit = if spec.unit.is_empty() { String::new() } else { format!(" {}", spec.unit) };
-    let doc = spec.doc.lines().next().unwrap_or("");
+    let doc = spec.doc.split_once(". ").map_or(spec.doc.to_owned(), |(first, _)| format!("{first}."));
+    let doc = doc.replace('\n', " ");
     format!("  {:width$}  {low} to {high}{unit}. {doc}", spec.name)
 }

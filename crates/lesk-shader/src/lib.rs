@@ -32,7 +32,7 @@ pub use error::Error;
 pub use language::{Language, Math, Options, Part, Product, Source};
 
 use lesk_bsdf::Scatter;
-use packed::{Packed, Type};
+use packed::{Op, Packed, Type};
 
 /// One function, ready to be lowered.
 struct Function {
@@ -82,9 +82,21 @@ fn unit(model: &dyn Scatter, what: &[Part], math: Math) -> Result<Unit, Error> {
 
 fn function(model: &dyn Scatter, part: Part, math: Math) -> Result<Function, Error> {
     let recording = record::record(model, part, math)?;
-    let packed = idiom::rewrite(&slim::slim(&pack::pack(&recording)?));
+    let mut packed = idiom::rewrite(&slim::slim(&pack::pack(&recording)?));
+    if part == Part::Draw {
+        name_outcome(&mut packed);
+    }
     let members: Vec<String> = model.specs().iter().map(|spec| spec.name.to_owned()).collect();
     let locals = name::locals(&packed, &part.arguments(), &members);
     let results = recording.outputs.iter().map(|output| (output.name, output.ty())).collect();
     Ok(Function { part, packed, locals, results })
+}
+
+/// Names the condition under which a draw has a density: a delta lobe was taken or, without such lobes, it is valid.
+fn name_outcome(packed: &mut Packed) {
+    let [_, _, pdf, delta] = packed.outputs[..] else { return };
+    if let Op::Select(condition, ..) = packed.nodes[pdf as usize] {
+        let name = if packed.number(delta).is_some() { "valid" } else { "taken" };
+        packed.names.entry(condition).or_insert(name);
+    }
 }

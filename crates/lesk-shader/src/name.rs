@@ -22,7 +22,7 @@ pub fn locals(packed: &Packed, arguments: &[&str], members: &[String]) -> Vec<Op
         arguments,
         members,
         names: vec![None; packed.nodes.len()],
-        taken: arguments.iter().map(|s| (*s).to_owned()).chain(["p".to_owned()]).collect(),
+        taken: arguments.iter().map(|s| (*s).to_owned()).chain(["p", "result"].map(str::to_owned)).collect(),
         powers: HashMap::new(),
     };
     namer.run(&uses, &is_local);

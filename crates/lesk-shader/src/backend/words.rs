@@ -1,10 +1,14 @@
 //! Words that no local, member or function may be called.
 
+use std::collections::HashSet;
+use std::sync::LazyLock;
+
 /// `name`, with an underscore appended where a language has another use for it.
 pub fn safe(name: &str) -> String {
-    let lower = name.to_ascii_lowercase();
-    let taken = FUNCTIONS.split_whitespace().chain(KEYWORDS.split_whitespace()).any(|word| word == lower);
-    if taken { format!("{name}_") } else { name.to_owned() }
+    static TAKEN: LazyLock<HashSet<&str>> =
+        LazyLock::new(|| FUNCTIONS.split_whitespace().chain(KEYWORDS.split_whitespace()).collect());
+    let is_taken = TAKEN.contains(name.to_ascii_lowercase().as_str());
+    if is_taken { format!("{name}_") } else { name.to_owned() }
 }
 
 /// Functions and types that the exported code uses, and their neighbours.

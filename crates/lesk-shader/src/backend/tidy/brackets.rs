@@ -23,6 +23,8 @@ struct View {
     at: Vec<usize>,
     /// For each bracket, the index (into `at`) of its partner.
     partner: Vec<usize>,
+    /// Brackets that are on their way out.
+    dropped: Vec<bool>,
 }
 
 impl View {
@@ -42,7 +44,8 @@ impl View {
                 _ => {}
             }
         }
-        View { at, partner }
+        let dropped = vec![false; at.len()];
+        View { at, partner, dropped }
     }
 
     fn text<'t>(&self, tokens: &'t [Token], k: usize) -> &'t str {
@@ -120,11 +123,14 @@ fn has_comma(view: &View, tokens: &[Token], open: usize) -> bool {
     inside(view, tokens, open).any(|k| view.text(tokens, k) == ",")
 }
 
-/// The indices directly inside a bracket; brackets further in are skipped.
+/// The indices directly inside a bracket; brackets further in are skipped, unless they have been dropped.
 fn inside<'v>(view: &'v View, tokens: &'v [Token], open: usize) -> impl Iterator<Item = usize> + 'v {
     let close = view.partner[open];
     let mut k = open + 1;
     core::iter::from_fn(move || {
+        while k < close && view.dropped[k] {
+            k += 1;
+        }
         if k >= close {
             return None;
         }
@@ -140,20 +146,21 @@ fn clear(tokens: &mut [Token], i: usize) {
 
 /// Drops every bracket around an operand that binds more tightly than its surroundings.
 pub(super) fn drop_needless(tokens: &mut [Token]) {
-    let view = View::new(tokens);
-    // from the inside out: what is dropped inside changes nothing outside
+    let mut view = View::new(tokens);
+    // from the inside out: what a bracket contains has been decided when its turn comes
     let mut pairs: Vec<usize> =
         (0..view.at.len()).filter(|&k| view.text(tokens, k) == "(" && view.partner[k] > k).collect();
     pairs.sort_by_key(|&open| view.partner[open]);
-    let mut dropped = Vec::new();
     for open in pairs {
         if is_needless(&view, tokens, open) {
-            dropped.push(view.at[open]);
-            dropped.push(view.at[view.partner[open]]);
+            let close = view.partner[open];
+            (view.dropped[open], view.dropped[close]) = (true, true);
         }
     }
-    for i in dropped {
-        clear(tokens, i);
+    for k in 0..view.at.len() {
+        if view.dropped[k] {
+            clear(tokens, view.at[k]);
+        }
     }
 }
 
@@ -163,7 +170,8 @@ fn is_needless(view: &View, tokens: &[Token], open: usize) -> bool {
     if open > 0 && tokens[view.at[open - 1]].kind == Kind::Word && before != "return" {
         return false;
     }
-    let is_word = close == open + 2 && tokens[view.at[open + 1]].kind == Kind::Word;
+    let mut content = inside(view, tokens, open);
+    let is_word = content.next().is_some_and(|k| tokens[view.at[k]].kind == Kind::Word) && content.next().is_none();
     if matches!(before, ")" | "]") || (matches!(after, "." | "[" | "{") && !is_word) || close == open + 1 {
         return false;
     }
@@ -178,7 +186,8 @@ fn is_needless(view: &View, tokens: &[Token], open: usize) -> bool {
     let inner = inner.unwrap_or(Level::Atom);
     let left = if open == 0 { Level::None } else { view.level(tokens, open - 1) };
     let right = if close + 1 < view.at.len() { view.level(tokens, close + 1) } else { Level::None };
-    fits(inner, left, right, before, view.text(tokens, open + 1))
+    let first = inside(view, tokens, open).next().map_or("", |k| view.text(tokens, k));
+    fits(inner, left, right, before, first)
 }
 
 fn fits(inner: Level, left: Level, right: Level, before: &str, first: &str) -> bool {
@@ -198,6 +207,113 @@ fn fits(inner: Level, left: Level, right: Level, before: &str, first: &str) -> b
         Level::Sum | Level::Product | Level::Sign => {
             let minus_twice = first == "-" && left != Level::None;
             inner > left && inner >= right && !minus_twice
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::tokens;
+    use super::{drop_needless, drop_splats};
+    use proptest::prelude::*;
+
+    fn tidied(text: &str) -> String {
+        let mut tokens = tokens::split(text);
+        drop_splats(&mut tokens);
+        drop_needless(&mut tokens);
+        tokens.iter().map(|token| &*token.text).collect()
+    }
+
+    #[test]
+    fn brackets_stay_where_they_matter() {
+        for (given, expected) in [
+            ("x = ((a + b) * c);", "x = (a + b) * c;"),
+            ("x = (a + (b * c));", "x = a + b * c;"),
+            ("x = (a - (b + c));", "x = a - (b + c);"),
+            ("x = ((a * b) / c);", "x = a * b / c;"),
+            ("x = (a / (b * c));", "x = a / (b * c);"),
+            ("x = (-((a + b)) * c);", "x = -(a + b) * c;"),
+            ("x = (a - (-(b)));", "x = a - (-b);"),
+            ("x = -((wo).x);", "x = -wo.x;"),
+            ("x = (a + b).x;", "x = (a + b).x;"),
+            ("return (max((a + b), c));", "return max(a + b, c);"),
+            ("x = ((a < b) ? (c + d) : (e * f));", "x = a < b ? c + d : e * f;"),
+            ("x = ((c ? a : b) * d);", "x = (c ? a : b) * d;"),
+            ("x = select(a, b, (c < d));", "x = select(a, b, (c < d));"),
+            ("x = ((a < b) && (c < d));", "x = a < b && c < d;"),
+            ("x = ((a && b) || c);", "x = (a && b) || c;"),
+            ("if ((a && b)) {", "if (a && b) {"),
+            ("x = ((v & 3u) | 1u);", "x = (v & 3u) | 1u;"),
+            ("x = (v / vec3((a + b)));", "x = v / (a + b);"),
+            ("x = (vec3(1.0) - v);", "x = 1.0 - v;"),
+            ("x = max(v, vec3(a));", "x = max(v, vec3(a));"),
+            ("x = lerp(v, (1.0).xxx, a);", "x = lerp(v, float3(1.0, 1.0, 1.0), a);"),
+            ("x = (v / (a).xxx);", "x = v / a;"),
+            ("GgxDraw r = (GgxDraw)0;", "GgxDraw r = (GgxDraw)0;"),
+        ] {
+            assert_eq!(tidied(given), expected);
+        }
+    }
+
+    /// The value of an expression of digits, signs and brackets.
+    struct Parser<'a>(core::iter::Peekable<core::str::Chars<'a>>);
+
+    impl Parser<'_> {
+        fn next_is(&mut self, signs: &[char]) -> Option<char> {
+            self.0.next_if(|c| signs.contains(c))
+        }
+        fn sum(&mut self) -> f64 {
+            let mut x = self.product();
+            while let Some(sign) = self.next_is(&['+', '-']) {
+                let y = self.product();
+                x = if sign == '+' { x + y } else { x - y };
+            }
+            x
+        }
+        fn product(&mut self) -> f64 {
+            let mut x = self.atom();
+            while let Some(sign) = self.next_is(&['*', '/']) {
+                let y = self.atom();
+                x = if sign == '*' { x * y } else { x / y };
+            }
+            x
+        }
+        fn atom(&mut self) -> f64 {
+            if self.next_is(&['-']).is_some() {
+                return -self.atom();
+            }
+            if self.next_is(&['(']).is_some() {
+                let x = self.sum();
+                assert_eq!(self.0.next(), Some(')'));
+                return x;
+            }
+            f64::from(self.0.next().and_then(|c| c.to_digit(10)).unwrap())
+        }
+    }
+
+    fn value(text: &str) -> f64 {
+        let text: String = text.chars().filter(|c| *c != ' ').collect();
+        Parser(text.chars().peekable()).sum()
+    }
+
+    /// Expressions as naga writes them: brackets around every operation, and more.
+    fn expression() -> impl Strategy<Value = String> {
+        let digit = (1..10_u32).prop_map(|n| n.to_string());
+        digit.prop_recursive(6, 64, 2, |inner| {
+            prop_oneof![
+                (inner.clone(), "[-+*/]", inner.clone()).prop_map(|(a, op, b)| format!("({a} {op} {b})")),
+                inner.clone().prop_map(|a| format!("-({a})")),
+                inner.prop_map(|a| format!("({a})")),
+            ]
+        })
+    }
+
+    proptest! {
+        #[test]
+        fn dropping_brackets_keeps_the_value(text in expression()) {
+            let (before, after) = (value(&text), value(&tidied(&text)));
+            // to the bit: not even the order of operations may change
+            prop_assert_eq!(before.to_bits(), after.to_bits(), "{} became {}", text, tidied(&text));
         }
     }
 }
