@@ -27,11 +27,11 @@ pub const SIGNIFICANCE: f64 = 0.01;
 const PILOT: usize = 4096;
 const PER_CELL: usize = 16;
 
-/// The error of the expected shares, summed over all cells, to aim at: below the noise of 1e6 draws.
-const ERROR: f64 = 1e-4;
+/// The error of the expected counts, summed over all cells, to aim at: this share of the root of the number of draws.
+const ERROR: f64 = 0.02;
 
 /// The most evaluations of the density.
-const EVALUATIONS: usize = 400_000;
+const EVALUATIONS: usize = 600_000;
 
 /// Draws whose weight and density are compared with the functions.
 const WEIGHED: usize = 512;
@@ -65,15 +65,22 @@ struct Bins {
 }
 
 impl Bins {
-    /// Cells that follow a pilot set of draws, with the counts that `n` draws should give.
-    fn new(case: &Case, wo: Vec3<f64>, n: f64, rng: &mut Random) -> Bins {
+    /// Cells that follow a pilot set of draws, with the counts that `draws` should give. The draws also show the
+    /// integration where the density is: a part of a cell that they reach is not overlooked.
+    fn new(case: &Case, wo: Vec3<f64>, draws: &[Sample<f64>], rng: &mut Random) -> Bins {
+        let n = draws.len() as f64;
         let lobes = case.delta(wo);
-        let pilot = (0..PILOT).map(|_| case.draw(wo, rng.unit3())).filter(|s| s.pdf > 0.0 && s.delta == 0.0);
-        let mut hints: Vec<Vec3<f64>> = pilot.map(|s| s.wi).collect();
+        let directions = |samples: &[Sample<f64>]| -> Vec<Vec3<f64>> {
+            samples.iter().filter(|s| s.pdf > 0.0 && s.delta == 0.0).map(|s| s.wi).collect()
+        };
+        let pilot: Vec<Sample<f64>> = (0..PILOT).map(|_| case.draw(wo, rng.unit3())).collect();
+        let mut hints = directions(&pilot);
         hints.push(vec3(-wo.x, -wo.y, wo.z));
         let partition = Partition::new(case.domain(), &hints, PER_CELL);
+        let mut probes = with_halo(hints);
+        probes.extend(directions(draws));
         let density = |wi| [case.pdf(wi, wo); CHANNELS];
-        let integrals = integrate(&partition, density, &with_halo(hints), ERROR, EVALUATIONS);
+        let integrals = integrate(&partition, density, &probes, ERROR / n.sqrt(), EVALUATIONS);
         let cell = |i: &Integral| Bin { expected: n * i.value[0], observed: 0.0, error: n * i.error };
         let mut bins: Vec<Bin> = integrals.iter().map(cell).collect();
         bins.extend(lobes.iter().map(|lobe| Bin { expected: n * lobe.probability, ..Bin::default() }));
@@ -118,16 +125,13 @@ impl Bins {
 /// Draws `count` directions for `wo` and compares.
 pub fn histogram(case: &Case, wo: Vec3<f64>, count: usize, rng: &mut Random) -> Outcome {
     let n = count as f64;
-    let mut bins = Bins::new(case, wo, n, rng);
-    let mut fault = bins.lobes.iter().find_map(|lobe| misdirected(case, wo, lobe));
-    for i in 0..count {
-        let s = case.draw(wo, rng.unit3());
-        if fault.is_none() && (i < WEIGHED || s.delta != 0.0) {
-            fault = misweighed(case, wo, &s, &bins.lobes);
-        }
-        bins.add(&s);
-    }
-    let fault = fault.or_else(|| bins.fault(n));
+    let draws: Vec<Sample<f64>> = (0..count).map(|_| case.draw(wo, rng.unit3())).collect();
+    let mut bins = Bins::new(case, wo, &draws, rng);
+    draws.iter().for_each(|s| bins.add(s));
+    let misdirected = bins.lobes.iter().find_map(|lobe| misdirected(case, wo, lobe));
+    let weighed = draws.iter().enumerate().filter(|(i, s)| *i < WEIGHED || s.delta != 0.0);
+    let misweighed = || weighed.into_iter().find_map(|(_, s)| misweighed(case, wo, s, &bins.lobes));
+    let fault = misdirected.or_else(misweighed).or_else(|| bins.fault(n));
     let integral = bins.integral(n);
     let [x, dof] = chi_square(bins.bins);
     let p = if dof > 0.0 { chi_square_survival(x, dof) } else { 1.0 };

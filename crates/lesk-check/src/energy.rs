@@ -6,7 +6,7 @@ use crate::effort::Budget;
 use crate::finding::Finding;
 use crate::partition::{Partition, with_halo};
 use crate::random::Random;
-use crate::reciprocity::{delta_rounding, way_back};
+use crate::reciprocity::way_back;
 use crate::region::Region;
 use crate::subject::{Case, Subject};
 use lesk_math::{CHANNELS, Vec3, vec3};
@@ -29,7 +29,7 @@ impl Accuracy {
     /// To find candidates.
     pub const SCAN: Accuracy = Accuracy { tolerance: 5e-3, evaluations: 20_000, hints: 64 };
     /// To judge, to tabulate.
-    pub const FINE: Accuracy = Accuracy { tolerance: 3e-5, evaluations: 1_000_000, hints: 1024 };
+    pub const FINE: Accuracy = Accuracy { tolerance: 3e-5, evaluations: 1_000_000, hints: 4096 };
 }
 
 /// Scattered power, or a directional albedo, by side.
@@ -71,12 +71,13 @@ impl Power {
 pub fn power_from(case: &Case, wi: Vec3<f64>, accuracy: Accuracy) -> Power {
     let mut power = integral(case, wi, accuracy, |wo| case.eval(wi, wo).0.map(|f| f * wo.z.abs()));
     for lobe in case.delta(wi) {
-        // the way of light from wi ends where the lobe of the way back begins; |cos| dw eta^2 is the same at both
-        let Some(weight) = way_back(case, lobe.wi, wi) else { continue };
+        // light from wi goes where its own lobes would come from; |cos| dw eta^2 is the same at both ends. A lobe that
+        // is no way back carries nothing here, and is reported as not reciprocal
+        let (weight, rounding) = way_back(case, lobe.wi, wi);
         let ratio = (case.index(wi) / case.index(lobe.wi)).powi(2);
         let value = weight.0.map(|w| w * ratio);
         power.add(lobe.wi.z * wi.z > 0.0, value);
-        power.error += delta_rounding(case, lobe.wi, wi) * ratio;
+        power.error += rounding * ratio;
         (0..CHANNELS).for_each(|c| power.delta[c] += value[c]);
     }
     power

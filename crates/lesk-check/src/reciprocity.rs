@@ -2,7 +2,8 @@
 
 use crate::finding::Finding;
 use crate::subject::{Case, ULPS, largest, neighbours};
-use lesk_math::Vec3;
+use lesk_bsdf::bsdf::Delta;
+use lesk_math::{Color, Vec3};
 
 /// What the value means.
 pub const MEASURE: &str = "relative difference of f(i,o)/eta_o^2 and f(o,i)/eta_i^2";
@@ -40,16 +41,11 @@ fn delta(case: &Case, wo: Vec3<f64>) -> Option<Finding> {
     let mut worst: Option<Finding> = None;
     for lobe in case.delta(wo) {
         let squeeze = (case.index(lobe.wi) / case.index(wo)).powi(2);
-        let finding = match way_back(case, lobe.wi, wo) {
-            Some(back) => {
-                let (there, back) = (lobe.weight * squeeze, back * (1.0 / squeeze));
-                let scale = largest(there).max(largest(back)).max(underflow(case));
-                let rounding = delta_rounding(case, lobe.wi, wo) / squeeze;
-                let allowed = ULPS * case.subject.epsilon() + rounding / scale;
-                Finding::new(case, lobe.wi, wo, largest(there - back) / scale, allowed).with_note("delta lobe")
-            }
-            None => Finding::new(case, lobe.wi, wo, 1.0, 0.0).with_note("no delta lobe leads back"),
-        };
+        let (back, rounding) = way_back(case, lobe.wi, wo);
+        let (there, back) = (lobe.weight * squeeze, back * (1.0 / squeeze));
+        let scale = largest(there).max(largest(back)).max(underflow(case));
+        let allowed = ULPS * case.subject.epsilon() + rounding / squeeze / scale;
+        let finding = Finding::new(case, lobe.wi, wo, largest(there - back) / scale, allowed).with_note("delta lobe");
         worst = Some(match worst {
             Some(so_far) => so_far.worse(finding),
             None => finding,
@@ -58,18 +54,15 @@ fn delta(case: &Case, wo: Vec3<f64>) -> Option<Finding> {
     worst
 }
 
-/// How far the weight of the lobe back may be off because the direction `w` of the lobe is rounded: near total
-/// reflection Fresnel's terms rise like a square root.
-pub fn delta_rounding(case: &Case, w: Vec3<f64>, wo: Vec3<f64>) -> f64 {
-    let Some(weight) = way_back(case, w, wo) else { return 0.0 };
-    let around = neighbours(w, ULPS * case.subject.epsilon());
-    let change = around.iter().filter_map(|&v| way_back(case, v, wo)).map(|other| largest(other - weight));
-    change.fold(0.0, f64::max)
-}
-
-/// The weight of the delta lobe from `wo` towards the viewer `w`, where there is one.
-pub fn way_back(case: &Case, w: Vec3<f64>, wo: Vec3<f64>) -> Option<lesk_math::Color<f64>> {
+/// The weight of the delta lobe that leads from `wo` to the viewer `w`, 0 where none does, and how far it may be off
+/// because `w` is rounded: near total reflection Fresnel's terms rise like a square root, or the lobe is gone.
+pub fn way_back(case: &Case, w: Vec3<f64>, wo: Vec3<f64>) -> (Color<f64>, f64) {
     let near = case.subject.epsilon().sqrt() * 16.0;
-    let leads = |lobe: &lesk_bsdf::bsdf::Delta<f64>| (lobe.wi - wo).length() < near;
-    case.delta(w).into_iter().find(leads).map(|lobe| lobe.weight)
+    let towards = |w: Vec3<f64>| {
+        let leads = |lobe: &Delta<f64>| (lobe.wi - wo).length() < near;
+        case.delta(w).into_iter().find(leads).map_or(Color::BLACK, |lobe| lobe.weight)
+    };
+    let weight = towards(w);
+    let around = neighbours(w, ULPS * case.subject.epsilon());
+    (weight, around.iter().map(|&v| largest(towards(v) - weight)).fold(0.0, f64::max))
 }

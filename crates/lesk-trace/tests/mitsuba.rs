@@ -16,7 +16,7 @@ use std::sync::Arc;
 const SIDE: u32 = 8;
 /// Pictures of independent seeds, and their samples per pixel: all scenes take about 8 s on two cores.
 const PICTURES: u64 = 12;
-const SPP: u32 = 32;
+const SPP: u32 = 48;
 /// Pictures behind the stored means, see `data/mitsuba/PROVENANCE.md`.
 const STORED_PICTURES: f64 = 32.0;
 /// Largest |z| of chance: 8 scenes of 64 tiles, the whole and the scatter, 3 channels, once in a thousand runs (Šidák); seeds
