@@ -8,8 +8,9 @@ use crate::model::Domain;
 use crate::params::{Params, flat_len};
 use lesk_math::{CHANNELS, Isa, Lane, Vec3, vec3};
 
-/// Directions per block: all arrays of a block stay in the first-level cache.
-pub const BLOCK: usize = 512;
+/// Directions per block. All arrays stay in the first-level cache, and a block is short enough for the processor to fetch
+/// the next one meanwhile: 128 is 15 to 25 % faster than 512 from memory, and as fast from the cache.
+pub const BLOCK: usize = 128;
 
 /// The longest flat parameter table.
 pub const MAX_PARAMS: usize = 32;
