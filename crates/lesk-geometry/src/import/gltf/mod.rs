@@ -174,7 +174,7 @@ mod tests {
     fn references_out_of_the_folder_are_refused() {
         for uri in ["../a.bin", "/etc/passwd", "file:///etc/passwd", "http://x/y", "%2e%2e/a.bin"] {
             let json = format!(r#"{{"asset":{{"version":"2.0"}},"buffers":[{{"byteLength":1,"uri":"{uri}"}}]}}"#);
-            let text = parse(json.as_bytes(), Some(Path::new("/tmp/none/a.gltf"))).unwrap_err().to_string();
+            let text = parse(json.as_bytes(), Some(Path::new("none/a.gltf"))).unwrap_err().to_string();
             assert!(text.contains("folder") || text.contains("relative path"), "{uri}: {text}");
         }
     }
