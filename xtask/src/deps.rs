@@ -7,7 +7,7 @@ use crate::process::{Error, capture, cargo};
 use serde_json::Value;
 
 /// The level of each crate, as in ARCHITECTURE.md.
-const LEVELS: [(&str, u8); 14] = [
+const LEVELS: [(&str, u8); 15] = [
     ("lesk-math", 0),
     ("lesk-derive", 0),
     ("lesk-quantities", 1),
@@ -21,6 +21,7 @@ const LEVELS: [(&str, u8); 14] = [
     ("lesk-trace", 5),
     ("lesk", 6),
     ("lesk-py", 6),
+    ("lesk-fuzz", 6),
     ("xtask", 6),
 ];
 

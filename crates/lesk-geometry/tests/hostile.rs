@@ -1,17 +1,15 @@
 //! Broken, cut off and hostile files: readers answer with an error or a mesh, and never panic or hang.
 
-use lesk_geometry::import::{Asset, gltf, obj, ply};
+use lesk_geometry::import::{Asset, Description, gltf, mtl, obj, ply};
 use proptest::prelude::*;
 use std::io::Cursor;
 
 /// A pyramid with normals, texture coordinates, a quadrilateral and materials.
-const OBJ: &str = "mtllib a.mtl\no pyramid\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv .5 .5 1\nvt 0 0\nvt 1 1\nvn 0 0 -1\n\
-    usemtl stone\ns off\nf 4/1/1 3/2/1 2/1/1 1/2/1\nusemtl gold\nf 1 2 5\nf -4 -3 -1\nf 3// 4// 5//\nf 4//1 1//1 5//1\nl 1 2\n";
+const OBJ: &str = include_str!("corpus/pyramid.obj");
 
-const PLY_ASCII: &str = "ply\nformat ascii 1.0\ncomment x\nelement vertex 4\nproperty float x\nproperty float y\n\
-    property double z\nproperty uchar red\nproperty float s\nproperty float t\nelement face 2\n\
-    property list uchar int vertex_indices\nproperty int flags\nelement edge 1\nproperty int a\nend_header\n\
-    0 0 0 255 0 0\n1 0 0 255 0 1\n1 1 0 0 1 1\n0 1 0 0 1 0\n3 0 1 2 7\n4 0 1 2 3 8\n5\n";
+const PLY_ASCII: &str = include_str!("corpus/ascii.ply");
+
+const MTL: &str = include_str!("corpus/materials.mtl");
 
 fn ply_binary(big: bool) -> Vec<u8> {
     let order = if big { "big" } else { "little" };
@@ -38,25 +36,7 @@ fn ply_binary(big: bool) -> Vec<u8> {
     out
 }
 
-const GLTF: &str = r#"{"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0,2]}],
-"extensionsUsed":["KHR_lights_punctual","KHR_texture_transform"],
-"extensions":{"KHR_lights_punctual":{"lights":[{"type":"spot","intensity":5,"spot":{"outerConeAngle":0.5}}]}},
-"nodes":[{"children":[1],"rotation":[0,0,0.6,0.8],"scale":[1,2,1]},{"mesh":0,"matrix":[1,0,0,0,0,1,0,0,0,0,1,0,1,2,3,1]},
-{"camera":0,"extensions":{"KHR_lights_punctual":{"light":0}}}],
-"cameras":[{"type":"perspective","perspective":{"yfov":0.7,"aspectRatio":1.5,"znear":0.1}}],
-"meshes":[{"primitives":[{"attributes":{"POSITION":0,"NORMAL":3},"indices":1,"material":0},
-{"attributes":{"POSITION":2},"mode":5}]}],
-"materials":[{"name":"m","pbrMetallicRoughness":{"baseColorFactor":[1,0.5,0,1],"roughnessFactor":0.4,
-"baseColorTexture":{"index":0,"extensions":{"KHR_texture_transform":{"scale":[2,2],"rotation":0.1}}}},"alphaMode":"MASK"}],
-"textures":[{"source":0,"sampler":0}],"samplers":[{"wrapS":33071,"magFilter":9728}],
-"images":[{"bufferView":1,"mimeType":"image/png"}],
-"buffers":[{"byteLength":44,"uri":"data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAAAAECAAEAAAA="}],
-"bufferViews":[{"buffer":0,"byteLength":36},{"buffer":0,"byteOffset":36,"byteLength":8}],
-"accessors":[{"bufferView":0,"componentType":5126,"type":"VEC3","count":3},
-{"bufferView":1,"componentType":5121,"type":"SCALAR","count":3},
-{"bufferView":0,"componentType":5126,"type":"VEC3","count":3,"sparse":{"count":1,
-"indices":{"bufferView":1,"byteOffset":1,"componentType":5121},"values":{"bufferView":0,"byteOffset":12}}},
-{"bufferView":0,"componentType":5120,"type":"VEC3","count":3,"normalized":true}]}"#;
+const GLTF: &str = include_str!("corpus/triangle.gltf");
 
 fn glb() -> Vec<u8> {
     let mut text = GLTF.replace(
@@ -90,6 +70,7 @@ type Reader = fn(&[u8]) -> lesk_geometry::Result<Asset>;
 fn corpus() -> Vec<(&'static str, Reader, Vec<u8>)> {
     vec![
         ("obj", obj::from_bytes, OBJ.into()),
+        ("mtl", mtl::from_bytes, MTL.into()),
         ("ply ascii", read_ply, PLY_ASCII.into()),
         ("ply little", read_ply, ply_binary(false)),
         ("ply big", read_ply, ply_binary(true)),
@@ -105,6 +86,7 @@ fn the_corpus_itself_is_read() {
         let triangles: usize = asset.meshes.iter().map(|m| m.mesh.triangles().len()).sum();
         let expected = match name {
             "obj" => 6,
+            "mtl" => 0,
             "gltf" | "glb" => 2,
             _ => 3,
         };
@@ -240,7 +222,7 @@ proptest! {
     #![proptest_config(ProptestConfig { cases: 3000, failure_persistence: None, ..ProptestConfig::default() })]
 
     #[test]
-    fn bent_files_never_panic_and_what_they_give_is_valid(which in 0..6usize, changes in prop::collection::vec(change(), 1..6)) {
+    fn bent_files_never_panic_and_what_they_give_is_valid(which in 0..7usize, changes in prop::collection::vec(change(), 1..6)) {
         let (_, read, mut bytes) = corpus().swap_remove(which);
         changes.iter().for_each(|c| apply(&mut bytes, c));
         match read(&bytes) {
@@ -252,6 +234,13 @@ proptest! {
                     prop_assert!(m.material.is_none_or(|i| i < asset.materials.len()));
                 }
                 prop_assert!(asset.instances.iter().all(|i| i.mesh < asset.meshes.len()));
+                for m in &asset.materials {
+                    let numbers = match &m.description {
+                        Description::Mtl(m) => [m.kd, m.ks, m.ke, [m.ns, m.d, m.ni]].concat(),
+                        Description::MetallicRoughness(m) => [&m.base_color[..], &m.emissive].concat(),
+                    };
+                    prop_assert!(numbers.iter().all(|x| x.is_finite()));
+                }
             }
             Err(e) => prop_assert!(!e.to_string().is_empty()),
         }
@@ -260,6 +249,7 @@ proptest! {
     #[test]
     fn random_bytes_never_panic(bytes in prop::collection::vec(any::<u8>(), 0..300)) {
         let _ = obj::from_bytes(&bytes);
+        let _ = mtl::from_bytes(&bytes);
         let _ = read_ply(&bytes);
         let _ = gltf::from_bytes(&bytes);
         let glb = [b"glTF\x02\0\0\0\x30\0\0\0".as_slice(), &bytes].concat();

@@ -4,7 +4,7 @@
 //! Every reader bounds what a file declares by the bytes that it has, and returns an [`Error`] for anything else.
 
 pub mod gltf;
-mod mtl;
+pub mod mtl;
 pub mod obj;
 pub mod ply;
 mod polygon;

@@ -1,9 +1,21 @@
-//! Wavefront MTL.
+//! Wavefront MTL: the materials of an OBJ file.
 
 use super::obj::{logical_lines, numbers};
-use super::{Description, Error, ImageSource, Material, Mtl, Result, Texture, Wrap, inside_folder};
+use super::{Asset, Description, Error, ImageSource, Material, Mtl, Result, Texture, Wrap, inside_folder};
 use std::collections::HashMap;
 use std::path::Path;
+
+/// Reads the text of a library alone: an asset without meshes, its materials in the order of their names.
+///
+/// # Errors
+/// Entries before the first material, numbers that are none, not finite or out of range; each with its line.
+pub fn from_bytes(bytes: &[u8]) -> Result<Asset> {
+    let (mut library, mut asset) = (Library::new(), Asset::default());
+    parse(bytes, Path::new(""), &mut library, &mut |w| asset.warn(w))?;
+    asset.materials = library.iter().map(|(name, m)| material(name, Some(m))).collect();
+    asset.materials.sort_by(|a, b| a.name.cmp(&b.name));
+    Ok(asset)
+}
 
 /// Materials by name.
 pub(super) type Library = HashMap<String, Mtl>;
