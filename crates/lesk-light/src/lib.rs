@@ -17,6 +17,7 @@
 //! - [`Lights`]: all lights of a scene; chooses one for a [`Receiver`], near and bright ones more often.
 //! - [`LightTree`]: that choice; its cost grows with the logarithm of the number of lights.
 //! - [`Spectrum`]: lumens of a watt, by the name of a spectrum.
+//! - [`photometry`]: luminaires from IES and EULUMDAT files.
 //!
 //! **Values** are linear Rec.709 RGB whose luminance Y is photometric: cd, lx, cd/m². Watts become lumens before a light
 //! is made.
@@ -35,6 +36,7 @@ mod environment;
 mod error;
 mod light;
 mod lights;
+pub mod photometry;
 mod point;
 mod sample;
 mod sky;
