@@ -11,7 +11,7 @@ copyright = author
 language = "en"
 exclude_patterns = ["tests"]
 
-extensions = ["model_pages", "myst_parser", "numpydoc", "sphinxcontrib.bibtex", "svg_math"]
+extensions = ["gallery_pages", "model_pages", "myst_parser", "numpydoc", "sphinxcontrib.bibtex", "svg_math"]
 myst_enable_extensions = ["amsmath", "colon_fence", "deflist", "dollarmath"]
 myst_heading_anchors = 3
 myst_links_external_new_tab = False

@@ -9,6 +9,7 @@ import pytest
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "_ext"))
 
+import gallery_pages
 import model_pages
 import svg_math
 
@@ -80,3 +81,20 @@ def test_every_paper_that_a_source_names_is_in_the_references():
         for key in re.findall(r"\b[a-z]{4,}(?:1[789]|20)\d\d[a-z]?\b", source.read_text())
     }
     assert {(key, source) for key, source in named if key not in known} == set()
+
+
+def test_a_figure_of_the_gallery_appears_once():
+    figures = {"a": {"title": "A", "caption": "What it shows.", "animated": False}}
+    ideas = [
+        {"slide": name, "says": "one idea", "figures": ["a"], "commands": [], "open": ""}
+        for name in ("First", "Second")
+    ]
+    page = gallery_pages.gallery(ideas, figures)
+    assert page.count("```{figure} a.png") == 1 and page.count("(#figure-a)") == 1
+    assert "$ lesk figure a -o a.svg" in page
+
+
+def test_a_row_of_the_errata_has_both_numbers():
+    row = {"id": "x", "slide": "S", "difference": "d", "case": "c", "unit": "lm", "slide_value": 680.0}
+    page = gallery_pages.errata([{**row, "paper_value": 683.002, "command": "lesk lecture errata x"}])
+    assert "| `x` | S | d: c | 680 lm | 683.002 lm | `lesk lecture errata x` |" in page

@@ -11,6 +11,8 @@ pictures come from that one definition.
 - `lesk.models`: every model as a class: values, draws, densities, gradients, shader source.
 - `lesk.terms`: the parts of models, alone: distributions of facets, masking, Fresnel.
 - `lesk.plot`: polar cuts, lobes, slices, albedo, a lit sphere.
+- `lesk.figures`: the figures of a lecture on light and shading.
+- `lesk.f0`: reflectance of common substances at normal incidence.
 - `lesk.check`: runs the claims of a model.
 - `lesk.render`, `lesk.scene`, `lesk.image`: pictures in cd/m², from a scene file to EXR, HDR and PNG.
 
@@ -33,13 +35,13 @@ from lesk.errors import (
 )
 
 if TYPE_CHECKING:
-    from lesk import image, models, plot, scene, terms
+    from lesk import f0, figures, image, models, plot, scene, terms
     from lesk._check import CheckReport, check
     from lesk._lesk import __version__
     from lesk._model import Delta, Model, Sample
     from lesk._render import Progress, Render, render
 
-_MODULES = ("image", "models", "plot", "scene", "terms")
+_MODULES = ("f0", "figures", "image", "models", "plot", "scene", "terms")
 _NAMES = {
     "CheckReport": "_check",
     "Delta": "_model",
@@ -68,6 +70,8 @@ __all__ = [
     "SceneError",
     "__version__",
     "check",
+    "f0",
+    "figures",
     "image",
     "models",
     "plot",

@@ -31,9 +31,10 @@ def test_importing_loads_neither_numpy_nor_matplotlib():
     assert answer.stdout.strip() == "[]"
 
 
-def test_the_scene_of_the_demo_is_the_one_of_the_examples():
-    example = ROOT / "examples" / "scenes" / "demo.toml"
+@pytest.mark.parametrize("name", ["demo.toml", "light_paths.toml"])
+def test_scenes_of_the_package_are_those_of_the_examples(name):
+    example = ROOT / "examples" / "scenes" / name
     if not example.is_file():
         pytest.skip("the examples are not here")
-    packaged = Path(lesk.__file__).parent / "data" / "demo.toml"
+    packaged = Path(lesk.__file__).parent / "data" / name
     assert packaged.read_bytes() == example.read_bytes()

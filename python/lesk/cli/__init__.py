@@ -13,6 +13,8 @@ COMMANDS = {
     "shader": "Write a model as shader source.",
     "render": "Render a scene.",
     "scene": "Check a scene file, or print the schema.",
+    "figure": "Make a figure of the lecture, or list them.",
+    "lecture": "List the ideas of a lecture on light and shading, or its errata.",
     "demo": "Render the demo scene and write a page about it.",
 }
 """The commands with their first lines, in the order of `lesk --help`. Each is a module of this package with a `main`."""

@@ -3,16 +3,25 @@
 from __future__ import annotations
 
 import textwrap
-from typing import Any
+from typing import Any, Protocol, TypeVar
 
 import numpy as np
 import numpy.typing as npt
 
 from lesk import _lesk
-from lesk._model import Model
+from lesk._model import Model, Sample
 from lesk.plot._figure import Plot, figure, label, listed, style
 
 Single = npt.NDArray[np.float32]
+AnyFloat = TypeVar("AnyFloat", npt.NDArray[np.float32], npt.NDArray[np.float64])
+
+
+class Scatterer(Protocol):
+    """What can be traced: anything that draws directions as a model does."""
+
+    def sample(self, wo: npt.ArrayLike, u: npt.ArrayLike | None = None) -> Sample:
+        """Draw directions to the light, see `Model.sample`."""
+
 
 _BOUNCES = 6
 """Scattering events of a path; more than one happens inside glass only."""
@@ -44,7 +53,7 @@ def sphere(
     from lesk.image import develop
 
     (model,) = listed(model)
-    picture = _trace(model, resolution, samples)
+    picture = trace(model, resolution, samples)
     # EV100 at which a luminance of 1 saturates the sensor: 1.2 * 2^EV = 1
     shown = develop(picture, ev100=-float(np.log2(1.2 * exposure)), mapper="agx")
     with style():
@@ -57,8 +66,8 @@ def sphere(
     return fig
 
 
-def _trace(model: Model, resolution: int, samples: int) -> Single:
-    """Mean light of all pixels."""
+def trace(model: Scatterer, resolution: int, samples: int) -> Single:
+    """Mean light of all pixels, shape (resolution, resolution, 3), linear."""
     total = np.zeros((resolution * resolution, 3), np.float64)
     jitter = _lesk.sobol(0, samples, 7).reshape(samples, 3)
     shift = np.random.default_rng(1).random((resolution * resolution, 3), np.float32)
@@ -75,14 +84,14 @@ def _trace(model: Model, resolution: int, samples: int) -> Single:
     return (total / samples).reshape(resolution, resolution, 3).astype(np.float32)
 
 
-def _scatter(model: Model, points: Single, u: Single, index: int) -> Single:
+def _scatter(model: Scatterer, points: Single, u: Single, index: int) -> Single:
     """Light that leaves points of the unit sphere towards the camera at +z."""
     light = np.zeros_like(points)
     weight = np.ones_like(points)
     wo = np.broadcast_to(np.array([0, 0, 1], np.float32), points.shape)
     active = np.arange(len(points))
     for bounce in range(_BOUNCES):
-        frame = _frames(points)
+        frame = frames(points)
         local = _unit(np.einsum("nij,nj->ni", frame, wo))
         drawn = model.sample(local, u[active])
         direction = np.einsum("nij,ni->nj", frame, drawn.wi)
@@ -104,14 +113,14 @@ def _scatter(model: Model, points: Single, u: Single, index: int) -> Single:
     return light
 
 
-def _unit(v: Single) -> Single:
-    return np.asarray(v / np.linalg.norm(v, axis=-1, keepdims=True), np.float32)
+def _unit(v: AnyFloat) -> AnyFloat:
+    return np.asarray(v / np.linalg.norm(v, axis=-1, keepdims=True), v.dtype)
 
 
-def _frames(normals: Single) -> Single:
-    """Rows tangent, bitangent, normal; the tangent runs around the vertical axis."""
-    tangent = np.stack([normals[:, 2], np.zeros(len(normals), np.float32), -normals[:, 0]], axis=-1)
-    tangent = _unit(tangent + np.float32(1e-6))
+def frames(normals: AnyFloat) -> AnyFloat:
+    """Rows tangent, bitangent, normal, shape (N, 3, 3); the tangent runs around the vertical axis."""
+    tangent = np.stack([normals[:, 2], np.zeros(len(normals), normals.dtype), -normals[:, 0]], axis=-1)
+    tangent = _unit(tangent + np.asarray(1e-6, normals.dtype))
     tangent = _unit(tangent - np.sum(tangent * normals, axis=-1, keepdims=True) * normals)
     return np.stack([tangent, np.cross(normals, tangent), normals], axis=1)
 
