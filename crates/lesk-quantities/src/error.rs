@@ -1,6 +1,6 @@
 //! The one error of this crate.
 
-use crate::units::{Dimension, Unit};
+use crate::Dimension;
 use std::fmt;
 
 /// Why a text is not the quantity that was asked for, or a number is outside the range of a formula.
@@ -22,15 +22,15 @@ pub enum QuantityError {
     UnknownUnit {
         /// The unit that was given.
         given: String,
-        /// The known unit that differs in case only, if there is one.
+        /// The known unit that was probably meant: another case, or a symbol for a word.
         meant: Option<&'static str>,
     },
     /// A quantity of another dimension than the accepted ones.
     WrongDimension {
         /// What was given.
         given: String,
-        /// The unit of what was given.
-        unit: Unit,
+        /// The dimension of what was given.
+        dimension: Dimension,
         /// What is accepted.
         accepted: Vec<Dimension>,
     },
@@ -66,16 +66,19 @@ impl fmt::Display for QuantityError {
             Self::UnknownUnit { given, meant } => {
                 write!(f, "unknown unit `{}`", shown(given))?;
                 match meant {
-                    Some(symbol) => write!(f, "\nhint: `{symbol}` is known; case matters"),
+                    Some(symbol) if symbol.eq_ignore_ascii_case(given) => {
+                        write!(f, "\nhint: `{symbol}` is known; case matters")
+                    }
+                    Some(symbol) => write!(f, "\nhint: write `{symbol}`"),
                     None => write!(
                         f,
-                        "\nhint: known are m, deg, s, K, W, lm, W/sr, cd, W/m2, lx, W/m2/sr, cd/m2, nit, EV, with prefixes like k and m"
+                        "\nhint: known are m, deg, s, K, W, lm, W/sr, cd, W/m2, lx, W/m2/sr, cd/m2, nit, EV, with prefixes like k and m; `lesk quantity --units` lists all"
                     ),
                 }
             }
-            Self::WrongDimension { given, unit, accepted } => {
-                write!(f, "`{}` is {}, but {} is accepted", shown(given), unit.dimension(), list(accepted))?;
-                match accepted.iter().find_map(|to| reason(unit.dimension(), *to)) {
+            Self::WrongDimension { given, dimension, accepted } => {
+                write!(f, "`{}` is {}, but {} is accepted", shown(given), dimension, list(accepted))?;
+                match accepted.iter().find_map(|to| reason(*dimension, *to)) {
                     Some(reason) => write!(f, "\nhint: {reason}"),
                     None => Ok(()),
                 }

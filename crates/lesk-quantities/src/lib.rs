@@ -12,7 +12,7 @@
 //! # Ok::<(), lesk_quantities::QuantityError>(())
 //! ```
 //!
-//! - [`units`]: quantities as people write them, `1100 lm`, `5 cm`, `2700 K`.
+//! - [`Dimension`], [`Unit`], [`Quantity`]: quantities as people write them, `1100 lm`, `5 cm`, `20 mW/cm2`.
 //! - [`photometry`]: K_m, V(λ), luminous efficacy.
 //! - [`observer`]: the CIE 1931 2° colour matching functions.
 //! - [`radiometry`]: the black body and photons.
@@ -23,7 +23,9 @@
 //! It holds numbers only: no light knows its place or shape here, and there is no spectral rendering. A watt becomes a
 //! lumen only through a spectrum, so a conversion between a radiometric and a photometric unit is refused.
 
+mod dimension;
 mod error;
+mod quantity;
 
 pub mod colorspace;
 pub mod exposure;
@@ -33,6 +35,8 @@ pub mod radiometry;
 pub mod source;
 pub mod units;
 
+pub use dimension::{Dimension, Form, System};
 pub use error::QuantityError;
 pub use photometry::K_M;
-pub use units::{Dimension, Quantity, Unit};
+pub use quantity::Quantity;
+pub use units::Unit;
