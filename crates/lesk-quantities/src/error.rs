@@ -34,6 +34,30 @@ pub enum QuantityError {
         /// What is accepted.
         accepted: Vec<Dimension>,
     },
+    /// Text that is no range of wavelengths.
+    BadRange {
+        /// What was given.
+        given: String,
+    },
+    /// The name of a spectrum that is not known.
+    UnknownSpectrum {
+        /// What was given.
+        given: String,
+    },
+    /// A table of a spectrum that cannot be read.
+    BadTable {
+        /// The line, from 1; 0 where the whole table is meant.
+        line: usize,
+        /// What is wrong, and what is accepted.
+        what: String,
+    },
+    /// A conversion that needs more than was given, or that does not exist.
+    NoConversion {
+        /// What is wrong.
+        what: String,
+        /// What would help; may be empty.
+        hint: String,
+    },
     /// A number outside the range that a formula accepts.
     OutOfRange {
         /// The name of the parameter.
@@ -83,6 +107,18 @@ impl fmt::Display for QuantityError {
                     None => Ok(()),
                 }
             }
+            Self::BadRange { given } => write!(
+                f,
+                "`{}` is no range of wavelengths, first and last nm from 1 to 100000 are accepted, like `380:780`",
+                shown(given)
+            ),
+            Self::UnknownSpectrum { given } => {
+                write!(f, "unknown spectrum `{}`, {} are accepted", shown(given), crate::spectrum::ACCEPTED)
+            }
+            Self::BadTable { line: 0, what } => f.write_str(what),
+            Self::BadTable { line, what } => write!(f, "line {line}: {what}"),
+            Self::NoConversion { what, hint } if hint.is_empty() => f.write_str(what),
+            Self::NoConversion { what, hint } => write!(f, "{what}\nhint: {hint}"),
             Self::OutOfRange { name, given, accepted } => write!(f, "`{name}` is {given}, but {accepted} is accepted"),
         }
     }
@@ -91,7 +127,7 @@ impl fmt::Display for QuantityError {
 impl std::error::Error for QuantityError {}
 
 /// At most 40 characters of what was given, without line breaks.
-fn shown(text: &str) -> String {
+pub(crate) fn shown(text: &str) -> String {
     let mut out: String = text.chars().take(40).map(|c| if c.is_control() { ' ' } else { c }).collect();
     if text.chars().nth(40).is_some() {
         out.push('…');
@@ -106,7 +142,7 @@ fn list(accepted: &[Dimension]) -> String {
 }
 
 /// Why one dimension does not become another, where people expect that it does.
-fn reason(from: Dimension, to: Dimension) -> Option<&'static str> {
+pub(crate) fn reason(from: Dimension, to: Dimension) -> Option<&'static str> {
     use Dimension::*;
     if from.is_photometric() && to.is_radiometric() || from.is_radiometric() && to.is_photometric() {
         return Some(

@@ -26,17 +26,22 @@
 mod dimension;
 mod error;
 mod quantity;
+mod table;
 
+pub mod colorimetry;
 pub mod colorspace;
+pub mod conversion;
 pub mod exposure;
 pub mod observer;
 pub mod photometry;
 pub mod radiometry;
 pub mod source;
+pub mod spectrum;
 pub mod units;
 
 pub use dimension::{Dimension, Form, System};
 pub use error::QuantityError;
 pub use photometry::K_M;
 pub use quantity::Quantity;
+pub use spectrum::Spectrum;
 pub use units::Unit;

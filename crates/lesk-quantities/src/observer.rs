@@ -1,47 +1,78 @@
-//! The CIE 1931 2° standard observer.
+//! The standard observers of the CIE.
 
-use std::sync::LazyLock;
+use crate::table::{self, Table};
 
-/// First wavelength of the table, nm.
+/// First wavelength of the 1931 and 1964 tables, nm.
 pub const FIRST_NM: f64 = 360.0;
-/// Last wavelength of the table, nm.
+/// Last wavelength of the tables, nm.
 pub const LAST_NM: f64 = 830.0;
 
-/// `data/cie/PROVENANCE.md` says where the numbers come from.
-const TABLE: &str = include_str!("../../../data/cie/cie1931_2deg_1nm.csv");
-
-static ROWS: LazyLock<Vec<[f64; 3]>> = LazyLock::new(|| TABLE.lines().skip(1).map(row).collect());
-
-/// The three functions of one line `nm,x,y,z`.
-fn row(line: &str) -> [f64; 3] {
-    let mut numbers = line.split(',').skip(1).map(|n| n.parse().expect("data/cie holds numbers"));
-    [(); 3].map(|()| numbers.next().expect("data/cie has four columns"))
+/// A standard observer of the CIE: three colour matching functions.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Observer {
+    /// 1931, 2° field; what film, sRGB and all of Lesk's pictures use.
+    Cie1931,
+    /// 1964, 10° field.
+    Cie1964,
+    /// 2°, from the cone fundamentals of 2006 (CIE 170-2:2015); from 390 nm.
+    Cie2006Deg2,
+    /// 10°, likewise.
+    Cie2006Deg10,
 }
 
-/// The colour matching functions x, y, z at a wavelength in nm; linear between the 1 nm steps of the table,
-/// zero outside 360 to 830 nm and for NaN.
-pub fn xyz_bar(lambda_nm: f64) -> [f64; 3] {
-    if !(FIRST_NM..=LAST_NM).contains(&lambda_nm) {
-        return [0.0; 3];
+impl Observer {
+    /// All of them, by the names that [`parse`](Self::parse) reads.
+    pub const ALL: [(&str, Observer); 4] = [
+        ("1931", Observer::Cie1931),
+        ("1964", Observer::Cie1964),
+        ("2006-2", Observer::Cie2006Deg2),
+        ("2006-10", Observer::Cie2006Deg10),
+    ];
+
+    /// Reads `1931`, `1964`, `2006-2`, `2006-10`.
+    pub fn parse(name: &str) -> Option<Observer> {
+        Self::ALL.iter().find(|(known, _)| *known == name.trim()).map(|(_, observer)| *observer)
     }
-    let at = lambda_nm - FIRST_NM;
-    let i = (at as usize).min(ROWS.len() - 2);
-    let t = at - i as f64;
-    [0, 1, 2].map(|c| ROWS[i][c] * (1.0 - t) + ROWS[i + 1][c] * t)
-}
 
-/// XYZ of a spectrum per nm, by the trapezoid rule at 1 nm from 360 to 830 nm; in the unit of the spectrum times nm,
-/// without K_m.
-pub fn xyz(spectrum: impl Fn(f64) -> f64) -> [f64; 3] {
-    let mut sum = [0.0; 3];
-    for (i, row) in ROWS.iter().enumerate() {
-        let end = i == 0 || i + 1 == ROWS.len();
-        let value = spectrum(FIRST_NM + i as f64) * if end { 0.5 } else { 1.0 };
-        for c in 0..3 {
-            sum[c] += value * row[c];
+    fn table(self) -> &'static Table {
+        match self {
+            Self::Cie1931 => &table::CIE_1931,
+            Self::Cie1964 => &table::CIE_1964,
+            Self::Cie2006Deg2 => &table::CIE_2006_2,
+            Self::Cie2006Deg10 => &table::CIE_2006_10,
         }
     }
-    sum
+
+    /// The functions x, y, z at a wavelength in nm; linear between the 1 nm steps of the table, zero outside and for NaN.
+    pub fn xyz_bar(self, lambda_nm: f64) -> [f64; 3] {
+        self.table().triple(lambda_nm)
+    }
+
+    /// XYZ of a spectrum per nm, by the trapezoid rule at 1 nm over the table; in the unit of the spectrum times nm,
+    /// without K_m.
+    pub fn xyz(self, spectrum: impl Fn(f64) -> f64) -> [f64; 3] {
+        let (first, last) = (self.table().first_nm() as u32, self.table().last_nm() as u32);
+        let mut sum = [0.0; 3];
+        for nm in first..=last {
+            let weight = if nm == first || nm == last { 0.5 } else { 1.0 };
+            let value = spectrum(f64::from(nm)) * weight;
+            let row = self.xyz_bar(f64::from(nm));
+            for c in 0..3 {
+                sum[c] += value * row[c];
+            }
+        }
+        sum
+    }
+}
+
+/// [`Observer::xyz_bar`] of 1931.
+pub fn xyz_bar(lambda_nm: f64) -> [f64; 3] {
+    Observer::Cie1931.xyz_bar(lambda_nm)
+}
+
+/// [`Observer::xyz`] of 1931.
+pub fn xyz(spectrum: impl Fn(f64) -> f64) -> [f64; 3] {
+    Observer::Cie1931.xyz(spectrum)
 }
 
 #[cfg(test)]
@@ -49,8 +80,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn table_has_471_rows_and_y_is_one_at_555_nm() {
-        assert_eq!(ROWS.len(), 471);
+    fn y_is_one_at_555_nm() {
         assert_eq!(xyz_bar(555.0)[1], 1.0);
         assert_eq!(xyz_bar(600.0), [1.0622, 0.631, 0.0008]); // CIE 018, table of 1931
     }
@@ -69,6 +99,17 @@ mod tests {
         let (a, b, m) = (xyz_bar(500.0), xyz_bar(501.0), xyz_bar(500.5));
         for c in 0..3 {
             assert!((m[c] - 0.5 * (a[c] + b[c])).abs() <= 2.0 * f64::EPSILON);
+        }
+    }
+
+    #[test]
+    fn all_observers_see_equal_energy_light_as_white() {
+        for (name, observer) in Observer::ALL {
+            assert_eq!(Observer::parse(name), Some(observer));
+            let [x, y, z] = observer.xyz(|_| 1.0);
+            let white = (x / (x + y + z), y / (x + y + z));
+            // each is scaled so that E is at 1/3, 1/3; the 1 nm tables keep it to 2e-4
+            assert!((white.0 - 1.0 / 3.0).abs() < 2e-4 && (white.1 - 1.0 / 3.0).abs() < 2e-4, "{name}: {white:?}");
         }
     }
 

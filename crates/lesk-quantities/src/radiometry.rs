@@ -10,6 +10,8 @@ pub const PLANCK: f64 = 6.626_070_15e-34;
 pub const LIGHT_SPEED: f64 = 299_792_458.0;
 /// Boltzmann constant, J/K.
 pub const BOLTZMANN: f64 = 1.380_649e-23;
+/// Wien displacement constant, m K (CODATA 2018).
+pub const WIEN: f64 = 2.897_771_955e-3;
 /// Stefan-Boltzmann constant 2 π⁵ k⁴ / (15 h³ c²), W/m²/K⁴.
 pub const STEFAN_BOLTZMANN: f64 = 5.670_374_419_184_43e-8;
 
@@ -27,6 +29,27 @@ pub fn blackbody(lambda_nm: f64, temperature: f64) -> f64 {
 /// Radiance of a black body over the whole spectrum, σT⁴/π in W/m²/sr; `temperature` in K.
 pub fn blackbody_radiance(temperature: f64) -> f64 {
     STEFAN_BOLTZMANN * temperature.powi(4) / PI
+}
+
+/// Photon radiance of a black body over the whole spectrum, photons/s/m²/sr: 4 ζ(3) (kT)³ / (h³ c²); `temperature` in K.
+pub fn blackbody_photon_radiance(temperature: f64) -> f64 {
+    const ZETA_3: f64 = 1.202_056_903_159_594_3;
+    4.0 * ZETA_3 * (BOLTZMANN * temperature / PLANCK).powi(3) / (LIGHT_SPEED * LIGHT_SPEED)
+}
+
+/// The share of a black body's radiation at wavelengths below `lambda_nm`, in vacuum; `temperature` in K.
+///
+/// 15/π⁴ Σ e^(-nx) (x³/n + 3x²/n² + 6x/n³ + 6/n⁴) with x = hc/(λkT) (Chang & Rhee 1984).
+pub fn blackbody_share_below(lambda_nm: f64, temperature: f64) -> f64 {
+    if !(lambda_nm > 0.0 && temperature > 0.0) {
+        return 0.0;
+    }
+    let x = PLANCK * LIGHT_SPEED / (lambda_nm * 1e-9 * BOLTZMANN * temperature);
+    let term =
+        |n: f64| (-n * x).exp() * (x.powi(3) / n + 3.0 * x * x / n.powi(2) + 6.0 * x / n.powi(3) + 6.0 / n.powi(4));
+    // after 1000 terms the rest is below 15/π⁴ 2/1000³ = 3e-10 even for x = 0
+    let sum: f64 = (1..=1000).map(|n| term(f64::from(n))).take_while(|t| *t > 1e-18).sum();
+    (15.0 / PI.powi(4) * sum).min(1.0)
 }
 
 /// Luminance of a black body, cd/m²; `temperature` in K.
@@ -96,6 +119,26 @@ mod tests {
     #[test]
     fn efficacy_within_380_to_780_nm_is_larger_than_over_the_whole_spectrum() {
         assert!(efficacy(Range::VISIBLE, |nm| blackbody(nm, 2856.0)) > 9.0 * blackbody_efficacy(2856.0));
+    }
+
+    #[test]
+    fn shares_of_the_sun_are_those_of_planck_integrals() {
+        // 5778 K: 46.5 % in 380 to 780 nm, 36.7 % in 400 to 700 nm (lecture.md, by quadrature)
+        let share = |a, b| blackbody_share_below(b, 5778.0) - blackbody_share_below(a, 5778.0);
+        printed(share(380.0, 780.0), 0.465, 1e-3);
+        printed(share(400.0, 700.0), 0.367, 1e-3);
+        // half of the radiation is below 4107 µm K (tables of the black-body fraction)
+        printed(blackbody_share_below(4107.0, 1000.0), 0.5, 1e-4);
+        printed(blackbody_share_below(1e12, 1000.0), 1.0, 1e-8);
+        let by_trapezoid = Range::VISIBLE.integrate(|nm| blackbody(nm, 5778.0)) / blackbody_radiance(5778.0);
+        assert!((share(380.0, 780.0) - by_trapezoid).abs() < 1e-6);
+    }
+
+    #[test]
+    fn photon_radiance_is_the_integral_of_planck_over_the_photon_energy() {
+        let sum: f64 = (10..200_000).map(|nm| blackbody(f64::from(nm), 3000.0) / photon_energy(f64::from(nm))).sum();
+        // the tail beyond 200 µm holds 1/(2 ζ(3)) x²/2 = 1.2e-4 of the photons, x = 0.024
+        assert!((sum / blackbody_photon_radiance(3000.0) - 1.0).abs() < 2e-4);
     }
 
     #[test]
