@@ -6,6 +6,7 @@ mod draws;
 mod errors;
 mod image;
 mod models;
+mod quantities;
 mod render;
 mod scenes;
 mod shaders;
@@ -24,6 +25,11 @@ mod _lesk {
     use crate::image::{develop, false_color, meter, read_image, read_planes, tone_mappers, write_image, write_planes};
     #[pymodule_export]
     use crate::models::{delta, evaluate, gradient, registry_json};
+    #[pymodule_export]
+    use crate::quantities::{
+        PySpectrum, blackbody_share_below, observer, quantity_convert, quantity_dimensions, quantity_options,
+        quantity_parse, quantity_units, reflectance, rgb_convert, rgb_spaces, rgb_to_xyz, spectrum_names, xyz_to_rgb,
+    };
     #[pymodule_export]
     use crate::render::{PyPicture, render};
     #[pymodule_export]

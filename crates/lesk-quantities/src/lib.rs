@@ -13,15 +13,19 @@
 //! ```
 //!
 //! - [`Dimension`], [`Unit`], [`Quantity`]: quantities as people write them, `1100 lm`, `5 cm`, `20 mW/cm2`.
-//! - [`photometry`]: K_m, V(λ), luminous efficacy.
-//! - [`observer`]: the CIE 1931 2° colour matching functions.
+//! - [`conversion`]: from flux to illuminance, from watts to photons, with every assumption named.
+//! - [`spectrum`]: illuminants, black bodies, lines, LEDs, tables from files.
+//! - [`photometry`]: K_m, V(λ), V'(λ), luminous efficacy.
+//! - [`observer`]: the colour matching functions of 1931, 1964 and 2006.
+//! - [`colorimetry`]: chromaticity, colour temperature, Duv, colour rendering.
 //! - [`radiometry`]: the black body and photons.
-//! - [`colorspace`]: XYZ and linear Rec.709.
+//! - [`colorspace`]: XYZ, linear Rec.709 and wider RGB spaces.
+//! - [`upsampling`]: smooth reflectance spectra of RGB colours.
 //! - [`source`]: flux, intensity, luminance and illuminance of simple sources.
 //! - [`exposure`]: EV100 and the luminances that it stands for.
 //!
 //! It holds numbers only: no light knows its place or shape here, and there is no spectral rendering. A watt becomes a
-//! lumen only through a spectrum, so a conversion between a radiometric and a photometric unit is refused.
+//! lumen only through a spectrum, so a conversion between a radiometric and a photometric unit without one is refused.
 
 mod dimension;
 mod error;
@@ -38,6 +42,7 @@ pub mod radiometry;
 pub mod source;
 pub mod spectrum;
 pub mod units;
+pub mod upsampling;
 
 pub use dimension::{Dimension, Form, System};
 pub use error::QuantityError;

@@ -190,6 +190,8 @@ impl Unit {
             }
             *slot = Some(factor);
         }
+        // what stands below a bar is printed last: `lm2/lm s` would mean nothing
+        unit.factors[..words.len()].sort_by_key(|factor| factor.is_some_and(|f| f.power < 0));
         unit.dimension = Dimension::of_powers(&powers).ok_or_else(unknown)?;
         Ok(unit)
     }

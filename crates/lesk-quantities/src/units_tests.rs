@@ -47,6 +47,7 @@ fn products_have_the_factor_of_their_parts() {
         ("mol/m2", 6.022_140_76e23),
         ("lm/W", 1.0),
         ("cd/cm2", 1e4),
+        ("lm2·lm-1·s", 1.0),
     ];
     for (text, factor) in cases {
         assert_eq!(one(text), factor, "{text}");

@@ -95,7 +95,7 @@ impl Need {
             Self::SolidAngle => ([1e-12, 4.0 * PI], "1e-12 sr to 4π sr"),
             Self::Area => ([1e-18, 1e30], "1e-18 m2 to 1e30 m2"),
             Self::Reflectance => ([1e-6, 1.0], "1e-6 to 1"),
-            Self::Incidence => ([0.0, 1.5707], "0 to 89.99 deg"),
+            Self::Incidence => ([0.0, 89.99f64.to_radians()], "0 to 89.99 deg"),
             Self::Time => ([1e-15, 1e18], "1e-15 s to 1e18 s"),
             Self::Width => ([1e-15, 1e-3], "1e-6 nm to 1 mm"),
             Self::Efficacy => ([1e-6, 2000.0], "1e-6 lm/W to 2000 lm/W"),

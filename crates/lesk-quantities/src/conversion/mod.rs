@@ -23,7 +23,7 @@ pub use assumptions::{Assumptions, Need, OPTIONS, OptionInfo};
 
 use crate::error::reason;
 use crate::photometry::Range;
-use crate::{Dimension, Form, Quantity, QuantityError, Spectrum, System, Unit, radiometry};
+use crate::{Dimension, Quantity, QuantityError, Spectrum, System, Unit, radiometry};
 use rules::Node;
 use std::fmt;
 

@@ -2,6 +2,7 @@
 
 use super::assumptions::{Assumptions, Need, OPTIONS};
 use super::rules::{Node, RULES, Rule};
+use crate::Form;
 
 /// Longest chain that is looked at; the graph has eight nodes, and no two need more.
 const MAX_RULES: usize = 4;
@@ -12,7 +13,10 @@ pub(super) type Chain = Vec<&'static Rule>;
 fn chains(from: Node, to: Node) -> Vec<Chain> {
     fn extend(chain: &mut Chain, seen: &mut Vec<Node>, to: Node, found: &mut Vec<Chain>) {
         let at = seen[seen.len() - 1];
-        for rule in RULES.iter().filter(|rule| rule.from == at && !seen.contains(&rule.to)) {
+        for rule in RULES.iter().filter(|rule| rule.from == at) {
+            if seen.contains(&rule.to) {
+                continue;
+            }
             chain.push(rule);
             if rule.to == to {
                 found.push(chain.clone());
@@ -50,9 +54,19 @@ pub(super) fn unused(chain: &[&Rule], a: &Assumptions) -> Vec<Need> {
     Need::ALL.into_iter().filter(|need| a.has(*need) && !used(need)).collect()
 }
 
-/// The same number must not stand for two things: a cone's or source's solid angle, the lit and the shining area.
+/// One picture per chain: no number stands for two things, light that arrives from a distance is no exitance of the lit
+/// surface and no hemisphere, and a flat surface does not shine alike in all directions.
 fn consistent(chain: &[&Rule]) -> bool {
-    Need::ALL.iter().all(|need| chain.iter().filter(|rule| rule.needs.contains(need)).count() <= 1)
+    let once = |need: &Need| chain.iter().filter(|rule| rule.needs.contains(need)).count() <= 1;
+    let has = |from: Form, to: Form, needs: &[Need]| {
+        let ends = [Node::Light(from), Node::Light(to)];
+        chain.iter().any(|rule| ends.contains(&rule.from) && ends.contains(&rule.to) && rule.needs == needs)
+    };
+    let far = has(Form::Intensity, Form::Irradiance, &[Need::Distance]);
+    let near = [Need::Lambertian, Need::Dome].iter().any(|need| has(Form::Irradiance, Form::Radiance, &[*need]));
+    let flat = has(Form::Radiance, Form::Intensity, &[Need::Area]);
+    let round = has(Form::Flux, Form::Intensity, &[]);
+    Need::ALL.iter().all(once) && !(far && near) && !(flat && round)
 }
 
 /// The chain that leaves the least of what was given unused, then the one that supposes the least, then the shortest;

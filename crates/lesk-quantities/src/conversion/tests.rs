@@ -38,9 +38,10 @@ fn exercises_of_the_lecture_have_their_values() {
     printed(value("1 W @ 555 nm", "photons/s", &[]) / 1e18, 2.79393, 1e-5);
     printed(value("600 nm", "J", &[]) * 1e19, 3.310743, 1e-6);
     printed(value("600 nm", "eV", &[]), 2.06640, 1e-5);
-    // the constants of the slides: 680 lm/W, 380 to 770 nm; a spectrum of equal energy gains 401/391 in the mean
+    // the constants of the slides: 680 lm/W, 380 to 770 nm; equal energy over 390 instead of 400 nm, and V beyond
+    // 770 nm is 1e-6 of its integral
     let [ours, theirs] = [vec![], vec![("km", "680"), ("range", "380:770")]].map(|o| value("1 W @ E", "lm", &o));
-    assert!((theirs / ours / (680.0 / 683.002 * 400.0 / 390.0) - 1.0).abs() < 1e-6);
+    assert!((theirs / ours / (680.0 / 683.002 * 400.0 / 390.0) - 1.0).abs() < 1e-5);
 }
 
 #[test]
@@ -130,6 +131,7 @@ fn what_is_missing_is_named_with_its_option() {
     let text = error("60 W", "lm", &[]);
     assert!(text.contains("by a spectrum only") && text.contains("--spectrum D65"), "{text}");
     assert!(error("300 cd/m2", "lm", &[("area", "1 m2")]).contains("--lambertian"));
+    assert!(error("1100 lm", "cd/m2", &[("distance", "2 m"), ("lambertian", "")]).contains("--area"));
     assert!(error("5 m", "lm", &[]).contains("no link"));
     assert!(error("1 W/nm", "W", &[]).contains("--width"));
     assert!(error("1 W @ 2000 nm", "lm", &[]).contains("nothing to convert"));

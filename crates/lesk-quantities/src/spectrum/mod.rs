@@ -208,7 +208,7 @@ fn around(first: f64, last: f64) -> Range {
 
 /// A is 100 (560/λ)^5 (exp(c2/(2848 560 nm)) - 1) / (exp(c2/(2848 λ)) - 1) with c2 = 1.435e-2 m K (CIE 15).
 fn illuminant_a(lambda_nm: f64) -> f64 {
-    if !(lambda_nm > 0.0) {
+    if lambda_nm.is_nan() || lambda_nm <= 0.0 {
         return 0.0;
     }
     let planck = |nm: f64| (1.435e7 / (2848.0 * nm)).exp_m1();

@@ -72,7 +72,7 @@ fn fault(rows: &[[f64; 2]], [nm, value]: [f64; 2]) -> Option<String> {
         return Some(format!("wavelength {nm} nm, 1 to 100000 nm is accepted"));
     }
     // beyond 1e30 products with other numbers of the formulas could overflow
-    if !(value.abs() <= 1e30) {
+    if !(-1e30..=1e30).contains(&value) {
         return Some(format!("value {value}, a finite number up to 1e30 is accepted"));
     }
     let last = rows.last().map_or(0.0, |row| row[0]);
