@@ -14,6 +14,7 @@ pictures come from that one definition.
 - `lesk.figures`: the figures of a lecture on light and shading.
 - `lesk.f0`: reflectance of common substances at normal incidence.
 - `lesk.check`: runs the claims of a model.
+- `lesk.measure`, `lesk.lux`: illuminance, luminance and glare at the sensors of a scene, with standard errors.
 - `lesk.render`, `lesk.scene`, `lesk.image`: pictures in cd/m², from a scene file to EXR, HDR and PNG.
 
 Nothing is loaded before it is used: `import lesk` takes a few milliseconds.
@@ -29,6 +30,7 @@ from lesk.errors import (
     FileError,
     ImageError,
     LeskError,
+    MeasureInterrupted,
     ParameterError,
     RenderInterrupted,
     SceneError,
@@ -38,6 +40,8 @@ if TYPE_CHECKING:
     from lesk import f0, figures, image, models, plot, scene, terms
     from lesk._check import CheckReport, check
     from lesk._lesk import __version__
+    from lesk._lux import LuxReport, lux
+    from lesk._measure import Measurement, MeasureProgress, Readings, measure
     from lesk._model import Delta, Model, Sample
     from lesk._render import Progress, Render, render
 
@@ -45,12 +49,18 @@ _MODULES = ("f0", "figures", "image", "models", "plot", "scene", "terms")
 _NAMES = {
     "CheckReport": "_check",
     "Delta": "_model",
+    "LuxReport": "_lux",
+    "MeasureProgress": "_measure",
+    "Measurement": "_measure",
     "Model": "_model",
     "Progress": "_render",
+    "Readings": "_measure",
     "Render": "_render",
     "Sample": "_model",
     "__version__": "_lesk",
     "check": "_check",
+    "lux": "_lux",
+    "measure": "_measure",
     "render": "_render",
 }
 
@@ -61,9 +71,14 @@ __all__ = [
     "FileError",
     "ImageError",
     "LeskError",
+    "LuxReport",
+    "MeasureInterrupted",
+    "MeasureProgress",
+    "Measurement",
     "Model",
     "ParameterError",
     "Progress",
+    "Readings",
     "Render",
     "RenderInterrupted",
     "Sample",
@@ -73,6 +88,8 @@ __all__ = [
     "f0",
     "figures",
     "image",
+    "lux",
+    "measure",
     "models",
     "plot",
     "render",

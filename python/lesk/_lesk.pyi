@@ -90,6 +90,21 @@ class Scene:
     files: list[Path]
     fingerprint: str
 
+    def boxes(self) -> list[tuple[str, list[float], list[float], bool]]: ...
+
+class Measured:
+    ended: str
+    seconds: float
+    raised: BaseException | None
+    maintenance_factor: float
+    def sensors(self) -> list[dict[str, Any]]: ...
+    def settings(self) -> dict[str, Any]: ...
+
+def measure_scene(
+    scene: Scene, wishes: dict[str, Any], progress: Callable[[float, int, int, float], object] | None
+) -> Measured: ...
+def measure_tasks() -> tuple[list[tuple[str, str, float, float | None, float | None, float | None]], str]: ...
+
 class Picture:
     ended: str
     seconds: float

@@ -6,6 +6,7 @@ from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
+    from lesk._measure import Measurement
     from lesk._render import Render
 
 
@@ -39,6 +40,14 @@ class RenderInterrupted(KeyboardInterrupt):
     def __init__(self, render: Render) -> None:
         super().__init__("the render was interrupted; `.render` holds what was done")
         self.render = render
+
+
+class MeasureInterrupted(KeyboardInterrupt):
+    """Ctrl-C during `lesk.measure` or `lesk.lux`; `measurement` holds what was done until then."""
+
+    def __init__(self, measurement: Measurement) -> None:
+        super().__init__("measuring was interrupted; `.measurement` holds what was done")
+        self.measurement = measurement
 
 
 def nearest(given: str, known: Iterable[str]) -> str:

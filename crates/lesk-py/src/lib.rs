@@ -5,11 +5,13 @@ mod checks;
 mod draws;
 mod errors;
 mod image;
+mod measure;
 mod models;
 mod quantities;
 mod render;
 mod scenes;
 mod shaders;
+mod supervise;
 mod terms;
 
 use pyo3::prelude::*;
@@ -23,6 +25,8 @@ mod _lesk {
     use crate::draws::{draw, sobol};
     #[pymodule_export]
     use crate::image::{develop, false_color, meter, read_image, read_planes, tone_mappers, write_image, write_planes};
+    #[pymodule_export]
+    use crate::measure::{PyMeasured, measure_scene, measure_tasks};
     #[pymodule_export]
     use crate::models::{delta, evaluate, gradient, registry_json};
     #[pymodule_export]

@@ -1,6 +1,7 @@
-//! Rendering: the render runs in a thread of its own, while Python's thread looks after signals and progress.
+//! Rendering.
 
 use crate::scenes::PyScene;
+use crate::supervise::{Shared, supervise};
 use crate::{errors, image};
 use lesk_image::io::{self, Format, exr, png};
 use lesk_image::{Film, ImageError, ToneMapper, tonemap};
@@ -12,13 +13,8 @@ use numpy::PyArray3;
 use pyo3::prelude::*;
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
-use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::mpsc::{RecvTimeoutError, channel};
-use std::sync::{Arc, Mutex};
+use std::sync::Arc;
 use std::time::{Duration, Instant};
-
-/// How often Python's thread looks for Ctrl-C and reports progress.
-const TICK: Duration = Duration::from_millis(50);
 
 /// What a caller may set instead of the scene.
 #[derive(FromPyObject)]
@@ -115,50 +111,29 @@ struct Job<'a> {
 impl Job<'_> {
     /// Renders in another thread. Returns how it ended, and what Python raised meanwhile.
     fn run(&self, film: &mut Film, progress: Option<Py<PyAny>>) -> PyResult<(End, Option<PyErr>)> {
-        let (stop, latest) = (AtomicBool::new(false), Mutex::new(None));
-        let (sender, receiver) = channel();
-        std::thread::scope(|scope| {
-            let (stop, latest) = (&stop, &latest);
-            let worker = scope.spawn(move || {
-                let result = self.trace(film, stop, latest);
-                // nobody waits where Python raised
-                let _ = sender.send(());
-                result
-            });
-            let mut raised = None;
-            while receiver.recv_timeout(TICK) == Err(RecvTimeoutError::Timeout) {
-                if raised.is_some() {
-                    continue;
-                }
-                let now = *latest.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
-                if let Err(error) = Python::attach(|py| attend(py, progress.as_ref(), now)) {
-                    raised = Some(error);
-                    stop.store(true, Ordering::Relaxed);
-                }
+        let seconds = |d: Duration| d.as_secs_f64();
+        let tell = |py: Python<'_>, now: Progress| match &progress {
+            Some(progress) => {
+                progress.call1(py, (now.done, now.total, seconds(now.elapsed), now.left.map(seconds))).map(|_| ())
             }
-            match worker.join() {
-                Ok(result) => Ok((result.map_err(errors::image)?, raised)),
-                Err(panic) => std::panic::resume_unwind(panic),
-            }
-        })
+            None => Ok(()),
+        };
+        let (result, raised) = supervise(|shared| self.trace(film, shared), tell);
+        Ok((result.map_err(errors::image)?, raised))
     }
 
-    /// Renders until the end or until `stop`, and keeps the checkpoint.
-    fn trace(&self, film: &mut Film, stop: &AtomicBool, latest: &Mutex<Option<Progress>>) -> Result<End, ImageError> {
+    /// Renders until the end or until it shall stop, and keeps the checkpoint.
+    fn trace(&self, film: &mut Film, shared: &Shared<Progress>) -> Result<End, ImageError> {
         let (mut failed, mut saved) = (None, Instant::now());
         let mut observe = |progress: Progress, film: &Film| {
-            *latest.lock().unwrap_or_else(std::sync::PoisonError::into_inner) = Some(progress);
+            shared.report(progress);
             if let Some((path, every)) = &self.checkpoint
                 && saved.elapsed().as_secs_f64() >= *every
             {
                 failed = checkpoint::save(path, &self.identity, film).err();
                 saved = Instant::now();
             }
-            if failed.is_some() || stop.load(Ordering::Relaxed) {
-                ControlFlow::Break(())
-            } else {
-                ControlFlow::Continue(())
-            }
+            if failed.is_some() || shared.stopped() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
         };
         let end = match &self.pool {
             Some(pool) => pool.install(|| lesk_trace::render(self.scene, self.settings, film, &mut observe)),
@@ -173,16 +148,6 @@ impl Job<'_> {
             _ => Ok(end),
         }
     }
-}
-
-/// Runs Python's signal handlers and the progress function.
-fn attend(py: Python<'_>, progress: Option<&Py<PyAny>>, now: Option<Progress>) -> PyResult<()> {
-    py.check_signals()?;
-    if let (Some(progress), Some(now)) = (progress, now) {
-        let seconds = |d: Duration| d.as_secs_f64();
-        progress.call1(py, (now.done, now.total, seconds(now.elapsed), now.left.map(seconds)))?;
-    }
-    Ok(())
 }
 
 #[pymethods]

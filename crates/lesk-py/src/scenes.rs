@@ -51,6 +51,17 @@ impl PyScene {
         self.0.objects.iter().map(|object| object.name.as_str()).collect()
     }
 
+    /// Name, smallest and largest coordinates (m) of every object, and whether it shines.
+    fn boxes(&self) -> Vec<(&str, [f32; 3], [f32; 3], bool)> {
+        let scene = &self.0;
+        let of = |(i, object): (usize, &'_ lesk_scene::Object)| {
+            let bounds = scene.world.geometry_of(i as u32).bounds().transformed(scene.world.place(i as u32));
+            (i, bounds.min.to_array(), bounds.max.to_array(), object.light.is_some())
+        };
+        let named = |(i, min, max, shines): (usize, _, _, _)| (scene.objects[i].name.as_str(), min, max, shines);
+        scene.objects.iter().enumerate().map(of).map(named).collect()
+    }
+
     /// Names and models of the materials.
     #[getter]
     fn materials(&self) -> Vec<(&str, &str)> {

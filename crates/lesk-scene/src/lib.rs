@@ -36,6 +36,7 @@
 //! - [`description`]: the same as plain structures, for programs; [`SceneDescription::build`] gives the scene.
 //! - [`Scene`]: what a tracer needs: world, objects, materials, lights, camera, film, settings.
 //! - [`Material::params`]: a model's parameter table at a point of a surface.
+//! - [`sensor`]: where light is measured, and [`tasks`]: the rows of EN 12464-1 it is checked against.
 //! - [`json_schema`]: what a file may contain, from the table that the reader itself checks.
 //!
 //! **Files**: quantities with a dimension are text with a unit (`"1100 lm"`, `"5 cm"`, `"2700 K"`); bare numbers are
@@ -55,6 +56,8 @@ mod read;
 mod resolve;
 mod scene;
 mod schema;
+pub mod sensor;
+mod tasks;
 
 pub use camera::Camera;
 pub use description::SceneDescription;
@@ -62,3 +65,5 @@ pub use error::{Place, Problem, SceneError};
 pub use material::{Binding, MAX_PARAMS, Material};
 pub use scene::{Film, Object, RenderSettings, Scene};
 pub use schema::json_schema;
+pub use sensor::{MeasureSettings, Sensor};
+pub use tasks::{TASK_EDITION, Task, tasks};

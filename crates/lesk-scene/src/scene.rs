@@ -1,6 +1,6 @@
 //! A scene that can be traced: everything looked up, checked and built.
 
-use crate::{Camera, Material};
+use crate::{Camera, Material, MeasureSettings, Sensor};
 use lesk_geometry::{Surface, World};
 use lesk_image::PixelFilter;
 use lesk_light::Lights;
@@ -17,6 +17,10 @@ pub struct Scene {
     pub film: Film,
     /// How to render, unless the caller says otherwise.
     pub render: RenderSettings,
+    /// Where light is measured.
+    pub sensors: Vec<Sensor>,
+    /// How it is measured, unless the caller says otherwise.
+    pub measure: MeasureSettings,
     /// All surfaces; instance `i` is object `i`.
     pub world: World,
     /// What each instance is.

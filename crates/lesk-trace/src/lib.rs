@@ -2,11 +2,13 @@
 //!
 //! [`render`] traces paths from the camera, asks lights directly at every rough surface and weighs both ways of finding
 //! light (multiple importance sampling). Many lights are chosen through a tree; dim paths end by Russian roulette; delta
-//! lobes and transmission are followed. [`checkpoint`] saves and restores exactly.
+//! lobes and transmission are followed. [`checkpoint`] saves and restores exactly. [`measure`] reads illuminance, luminance
+//! and glare at the sensors of a scene, with their standard errors.
 //!
 //! It does not denoise, does not clamp, and knows no model by name.
 
 pub mod checkpoint;
+pub mod measure;
 mod path;
 mod render;
 mod split;

@@ -64,7 +64,7 @@ struct Vertex {
 
 /// Veach's power heuristic with exponent 2 (veach1997, section 9.2.4).
 #[inline]
-fn power_heuristic(a: f32, b: f32) -> f32 {
+pub(crate) fn power_heuristic(a: f32, b: f32) -> f32 {
     // divide first: densities of narrow lobes overflow when squared
     let r = b / a;
     1.0 / (1.0 + r * r)
@@ -74,13 +74,29 @@ fn power_heuristic(a: f32, b: f32) -> f32 {
 pub(crate) fn trace(scene: &Scene, limits: Limits, ray: Ray, sampler: &mut Sampler) -> Found {
     let found = Found { radiance: Color::BLACK, splits: [Color::BLACK; SPLITS], aov: None };
     let mut path = Path { scene, limits, throughput: Color::WHITE, eta_scale: 1.0, found, kind: PathKind::camera() };
-    path.run(ray, sampler);
+    path.run(ray, Last { receiver: Receiver::anywhere(ray.o), pdf: 0.0, only: true }, sampler);
+    path.found
+}
+
+/// Follows a path that left a receiver of light along `ray`, drawn with the density `pdf` in 1/sr. The receiver asks the
+/// lights itself; what the ray finds of them is weighed against that.
+pub(crate) fn trace_from(
+    scene: &Scene,
+    limits: Limits,
+    receiver: Receiver,
+    ray: Ray,
+    pdf: f32,
+    sampler: &mut Sampler,
+) -> Found {
+    let found = Found { radiance: Color::BLACK, splits: [Color::BLACK; SPLITS], aov: None };
+    let kind = PathKind::camera().then(false);
+    let mut path = Path { scene, limits, throughput: Color::WHITE, eta_scale: 1.0, found, kind };
+    path.run(ray, Last { receiver, pdf, only: false }, sampler);
     path.found
 }
 
 impl<'a> Path<'a> {
-    fn run(&mut self, mut ray: Ray, sampler: &mut Sampler) {
-        let mut last = Last { receiver: Receiver::anywhere(ray.o), pdf: 0.0, only: true };
+    fn run(&mut self, mut ray: Ray, mut last: Last, sampler: &mut Sampler) {
         for bounce in 0.. {
             let Some(hit) = self.scene.world.intersect(&ray) else {
                 self.add_background(ray.d, &last);

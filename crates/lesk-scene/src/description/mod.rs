@@ -28,6 +28,7 @@ pub use material::{MaterialDescription, Picture, Source, TextureDescription};
 pub use object::{GroupDescription, Normals, ObjectDescription, Shape, Triangles};
 
 use crate::scene::{Film, RenderSettings};
+use crate::{MeasureSettings, Sensor};
 use lesk_image::PixelFilter;
 use std::path::PathBuf;
 
@@ -42,6 +43,10 @@ pub struct SceneDescription {
     pub film: Film,
     /// How to render.
     pub render: RenderSettings,
+    /// Where light is measured.
+    pub sensors: Vec<Sensor>,
+    /// How it is measured.
+    pub measure: MeasureSettings,
     /// Materials by name.
     pub materials: Vec<MaterialDescription>,
     /// Objects that are placed as one.
@@ -64,6 +69,8 @@ impl SceneDescription {
             camera,
             film: Film { width: 640, height: 480, filter: PixelFilter::default(), ev100: None },
             render: RenderSettings::default(),
+            sensors: Vec::new(),
+            measure: MeasureSettings::default(),
             materials: Vec::new(),
             groups: Vec::new(),
             objects: Vec::new(),

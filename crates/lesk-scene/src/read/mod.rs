@@ -6,6 +6,7 @@ mod lights;
 mod materials;
 mod node;
 mod objects;
+mod sensors;
 
 use crate::description::SceneDescription;
 use crate::error::{Problem, SceneError};
@@ -109,6 +110,12 @@ fn fill(scene: &mut SceneDescription, root: &Fields, problems: &mut Problems) {
     {
         render(&mut scene.render, &fields);
     }
+    if let Some(node) = root.node("measure")
+        && let Some(fields) = Fields::of(node, &Expected::plain("measure", schema::MEASURE), problems)
+    {
+        sensors::settings(&mut scene.measure, &fields);
+    }
+    scene.sensors = root.list("sensors").iter().filter_map(|n| sensors::sensor(n, problems)).collect();
     scene.materials = root.named("materials").iter().map(|e| materials::material(e, problems)).collect();
     scene.groups = root.named("groups").iter().map(|e| objects::group(e, problems)).collect();
     scene.objects = root.list("objects").iter().filter_map(|n| objects::object(n, problems)).collect();

@@ -11,7 +11,7 @@ mod objects;
 use crate::description::SceneDescription;
 use crate::error::{Place, Problem, SceneError};
 use crate::scene::{Object, Scene};
-use crate::{Camera, Material};
+use crate::{Camera, Material, MeasureSettings};
 use files::Files;
 use lesk_geometry::WorldBuilder;
 use lesk_light::{Light, Lights};
@@ -119,6 +119,8 @@ impl<'a> Resolver<'a> {
             camera,
             film: d.film.clone(),
             render: d.render.clone(),
+            sensors: d.sensors.clone(),
+            measure: d.measure,
             world,
             objects: self.objects,
             materials: self.materials,
@@ -137,6 +139,9 @@ impl<'a> Resolver<'a> {
         plain.folder.clear();
         plain.film.ev100 = None;
         plain.render.spp = 0;
+        // sensors change no picture
+        plain.sensors.clear();
+        plain.measure = MeasureSettings::default();
         let mut hasher = HashText(self.files.hasher().clone());
         // writing to a hasher cannot fail
         let _ = write!(hasher, "{plain:?}");

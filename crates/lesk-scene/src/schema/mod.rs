@@ -2,9 +2,11 @@
 
 mod json;
 mod sections;
+mod sensors;
 
 pub use json::json_schema;
 pub(crate) use sections::*;
+pub(crate) use sensors::*;
 
 use lesk_quantities::Dimension;
 

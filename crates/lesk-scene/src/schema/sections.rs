@@ -1,13 +1,13 @@
 //! The table.
 
-use super::{Field, Kind, Section, Variants, field, needed};
+use super::{Field, Kind, MEASURE, SENSOR, Section, Variants, field, needed};
 use Dimension::*;
 use lesk_quantities::Dimension;
 
-const POSITIVE: [f64; 2] = [f64::MIN_POSITIVE, f64::MAX];
-const ANY: [f64; 2] = [f64::MIN, f64::MAX];
-const LENGTH: Kind = Kind::Quantity(&[Length], [1e-9, 1e12]);
-const ANGLE: Kind = Kind::Quantity(&[Angle], ANY);
+pub(super) const POSITIVE: [f64; 2] = [f64::MIN_POSITIVE, f64::MAX];
+pub(super) const ANY: [f64; 2] = [f64::MIN, f64::MAX];
+pub(super) const LENGTH: Kind = Kind::Quantity(&[Length], [1e-9, 1e12]);
+pub(super) const ANGLE: Kind = Kind::Quantity(&[Angle], ANY);
 
 /// The version of scene files.
 pub(crate) const VERSION: i64 = 1;
@@ -22,6 +22,8 @@ pub(crate) const ROOT: &[Field] = &[
     field("groups", Kind::Named(Section::Plain("group", GROUP)), "Objects that are placed as one, by name."),
     field("objects", Kind::List(Section::Variants(&OBJECT)), "What is there."),
     field("lights", Kind::List(Section::Variants(&LIGHT)), "Lights that are no surface."),
+    field("sensors", Kind::List(Section::Variants(&SENSOR)), "Where light is measured."),
+    field("measure", Kind::Table(Section::Plain("measure", MEASURE)), "How light is measured."),
     field("environment", Kind::Table(Section::Variants(&ENVIRONMENT)), "What lies behind everything."),
 ];
 

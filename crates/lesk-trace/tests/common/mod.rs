@@ -6,7 +6,7 @@ use lesk_geometry::{Geometry, Transform, World, WorldBuilder};
 use lesk_image::PixelFilter;
 use lesk_light::{Area, Light, Lights};
 use lesk_math::{Color, Vec3, vec3};
-use lesk_scene::{Camera, Film, Material, Object, RenderSettings, Scene};
+use lesk_scene::{Camera, Film, Material, MeasureSettings, Object, RenderSettings, Scene};
 use lesk_trace::{Settings, film_for, render};
 use std::ops::ControlFlow;
 
@@ -63,6 +63,8 @@ impl Parts {
             camera,
             film: Film { width: size[0], height: size[1], filter: PixelFilter::box_filter(0.5).unwrap(), ev100: None },
             render: RenderSettings::default(),
+            sensors: vec![],
+            measure: MeasureSettings::default(),
             world,
             objects: self.objects,
             materials: self.materials,

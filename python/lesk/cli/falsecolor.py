@@ -1,0 +1,95 @@
+"""`lesk falsecolor`: luminance or illuminance as colours beside a scale."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+from typing import Annotated, Any
+
+import numpy as np
+import typer
+
+from lesk import image
+from lesk._measure import Measurement, run, scene_of
+from lesk.cli._run import Json, emit, numbers
+from lesk.cli.lux import Bar, share
+from lesk.errors import FileError, MeasureInterrupted, ParameterError
+
+UNITS = {"cd/m2": False, "lx": True}
+
+
+def main(
+    source: Annotated[Path, typer.Argument(help="A scene file, or a linear picture in cd/m2: .exr or .hdr.")],
+    output: Annotated[Path, typer.Option("-o", "--output", help="The picture: .png or .svg.")],
+    unit: Annotated[str, typer.Option(help="cd/m2: luminance; lx: illuminance of surfaces, of scenes only.")] = "cd/m2",
+    scale: Annotated[str | None, typer.Option("--range", help="Ends of the scale, LOW,HIGH.")] = None,
+    log: Annotated[bool, typer.Option("--log", help="Steps of equal ratio.")] = False,
+    width: Annotated[int, typer.Option(help="Width of the picture of a scene in pixels.")] = 320,
+    error: Annotated[str, typer.Option(help="Relative standard error of every pixel of a scene.")] = "5%",
+    time: Annotated[float | None, typer.Option(help="Seconds after which sampling stops.")] = None,
+    json: Json = False,
+) -> int:
+    """Show luminance or illuminance in false colours, beside their scale.
+
+    JSON: `output`, `unit`, `min`, `mean`, `max`, `relative_error` (the greatest, of scenes).
+    """
+    if unit not in UNITS:
+        raise ParameterError(f"`--unit` is `{unit}`, but {' and '.join(UNITS)} are accepted")
+    if output.suffix.lower() not in (".png", ".svg", ".pdf"):
+        raise ParameterError(f"`{output.name}` ends in `{output.suffix}`, but .png, .svg and .pdf are accepted")
+    ends: list[float | None] = list(numbers(scale, "--range")) if scale else [None, None]
+    if len(ends) != 2:
+        raise ParameterError(f"`--range` is `{scale}`, but two numbers are accepted, like `0,500`")
+    worst, title, status = None, "", 0
+    if source.suffix.lower() == ".toml":
+        scene = scene_of(source)
+        title = scene.title
+        found, status = measure(scene, width, unit, share(error, "--error"), time)
+        value, worst = found.sensors[0].value, found.sensors[0].relative_error
+    else:
+        value = picture(source, unit)
+    from lesk._lux_plot import picture as draw
+
+    figure = draw(value, unit, low=ends[0], high=ends[1], log=log, title=title)
+    try:
+        figure.savefig(output)
+    except OSError as failure:
+        raise FileError(f"cannot write `{output}`: {(failure.strerror or str(failure)).lower()}") from None
+    facts = {"min": float(value.min()), "mean": float(value.mean()), "max": float(value.max())}
+    if json:
+        emit({"output": str(output), "unit": unit, **facts, "relative_error": worst})
+    else:
+        listed = ", ".join(f"{name} {number:.4g}" for name, number in facts.items())
+        print(f"{output}: {listed} {unit}", file=sys.stderr)
+    return status
+
+
+def measure(scene: Any, width: int, unit: str, error: float, time: float | None) -> tuple[Measurement, int]:
+    """Read every pixel of the scene's camera; the status is 130 after Ctrl-C."""
+    columns, rows = scene.size
+    size = (width, max(1, round(width * rows / columns)))
+    wishes: dict[str, Any] = dict.fromkeys(("seed", "max_depth", "threads", "sensors"))
+    # a pixel that one ray in a thousand lights would take for ever
+    wishes |= {"error": error, "time": time, "max_samples": 1 << 16, "camera": (*size, UNITS[unit])}
+    bar = Bar() if sys.stderr.isatty() else None
+    try:
+        return run(scene, wishes, bar), 0
+    except MeasureInterrupted as stopped:
+        return stopped.measurement, 130
+    finally:
+        if bar is not None:
+            bar.close()
+
+
+def picture(source: Path, unit: str) -> Any:
+    """The luminance of every pixel of a linear picture."""
+    if unit != "cd/m2":
+        raise ParameterError(
+            f"`--unit` is `{unit}`, but a picture holds luminances\nhint: give the scene file for illuminances"
+        )
+    if source.suffix.lower() not in (".exr", ".hdr"):
+        raise ParameterError(f"`{source.name}` ends in `{source.suffix}`, but .toml, .exr and .hdr are accepted")
+    pixels = image.read(source)
+    if pixels.shape[2] < 3:
+        return pixels[..., 0].astype(np.float64)
+    return (pixels[..., :3] @ np.array([0.2126, 0.7152, 0.0722])).astype(np.float64)
