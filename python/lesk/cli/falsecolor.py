@@ -10,28 +10,30 @@ import numpy as np
 import typer
 
 from lesk import image
-from lesk._measure import Measurement, run, scene_of
+from lesk._measure import run, scene_of
+from lesk._render import render
 from lesk.cli._run import Json, emit, numbers
 from lesk.cli.lux import Bar, share
-from lesk.errors import FileError, MeasureInterrupted, ParameterError
+from lesk.errors import FileError, MeasureInterrupted, ParameterError, RenderInterrupted
 
-UNITS = {"cd/m2": False, "lx": True}
+UNITS = ("cd/m2", "lx")
 
 
 def main(
     source: Annotated[Path, typer.Argument(help="A scene file, or a linear picture in cd/m2: .exr or .hdr.")],
-    output: Annotated[Path, typer.Option("-o", "--output", help="The picture: .png or .svg.")],
+    output: Annotated[Path, typer.Option("-o", "--output", help="The picture: .png, .svg or .pdf.")],
     unit: Annotated[str, typer.Option(help="cd/m2: luminance; lx: illuminance of surfaces, of scenes only.")] = "cd/m2",
     scale: Annotated[str | None, typer.Option("--range", help="Ends of the scale, LOW,HIGH.")] = None,
     log: Annotated[bool, typer.Option("--log", help="Steps of equal ratio.")] = False,
-    width: Annotated[int, typer.Option(help="Width of the picture of a scene in pixels.")] = 320,
-    error: Annotated[str, typer.Option(help="Relative standard error of every pixel of a scene.")] = "5%",
+    spp: Annotated[int | None, typer.Option(help="Samples per pixel of luminances; else what the scene says.")] = None,
+    width: Annotated[int, typer.Option(help="Width of a picture of illuminances in pixels.")] = 160,
+    error: Annotated[str, typer.Option(help="Relative standard error of illuminances.")] = "10%",
     time: Annotated[float | None, typer.Option(help="Seconds after which sampling stops.")] = None,
     json: Json = False,
 ) -> int:
-    """Show luminance or illuminance in false colours, beside their scale.
+    """Show luminance or illuminance in false colours, beside their scale. Ctrl-C keeps what is done.
 
-    JSON: `output`, `unit`, `min`, `mean`, `max`, `relative_error` (the greatest, of scenes).
+    JSON: `output`, `unit`, `min`, `mean`, `max`.
     """
     if unit not in UNITS:
         raise ParameterError(f"`--unit` is `{unit}`, but {' and '.join(UNITS)} are accepted")
@@ -40,14 +42,16 @@ def main(
     ends: list[float | None] = list(numbers(scale, "--range")) if scale else [None, None]
     if len(ends) != 2:
         raise ParameterError(f"`--range` is `{scale}`, but two numbers are accepted, like `0,500`")
-    worst, title, status = None, "", 0
-    if source.suffix.lower() == ".toml":
+    title, status = "", 0
+    if source.suffix.lower() != ".toml":
+        value = picture(source, unit)
+    else:
         scene = scene_of(source)
         title = scene.title
-        found, status = measure(scene, width, unit, share(error, "--error"), time)
-        value, worst = found.sensors[0].value, found.sensors[0].relative_error
-    else:
-        value = picture(source, unit)
+        if unit == "lx":
+            value, status = illuminances(scene, width, share(error, "--error"), time)
+        else:
+            value, status = luminances(scene, spp, time)
     from lesk._lux_plot import picture as draw
 
     figure = draw(value, unit, low=ends[0], high=ends[1], log=log, title=title)
@@ -57,25 +61,38 @@ def main(
         raise FileError(f"cannot write `{output}`: {(failure.strerror or str(failure)).lower()}") from None
     facts = {"min": float(value.min()), "mean": float(value.mean()), "max": float(value.max())}
     if json:
-        emit({"output": str(output), "unit": unit, **facts, "relative_error": worst})
+        emit({"output": str(output), "unit": unit, **facts})
     else:
         listed = ", ".join(f"{name} {number:.4g}" for name, number in facts.items())
         print(f"{output}: {listed} {unit}", file=sys.stderr)
     return status
 
 
-def measure(scene: Any, width: int, unit: str, error: float, time: float | None) -> tuple[Measurement, int]:
-    """Read every pixel of the scene's camera; the status is 130 after Ctrl-C."""
+def luminances(scene: Any, spp: int | None, time: float | None) -> tuple[Any, int]:
+    """Render; the status is 130 after Ctrl-C."""
+    from lesk.cli.render import Bar as RenderBar
+
+    bar = RenderBar() if sys.stderr.isatty() else None
+    try:
+        return luminance(render(scene, spp=spp, time=time, progress=bar).rgb), 0
+    except RenderInterrupted as stopped:
+        return luminance(stopped.render.rgb), 130
+    finally:
+        if bar is not None:
+            bar.close()
+
+
+def illuminances(scene: Any, width: int, error: float, time: float | None) -> tuple[Any, int]:
+    """Measure what every pixel of the scene's camera sees; the status is 130 after Ctrl-C."""
     columns, rows = scene.size
     size = (width, max(1, round(width * rows / columns)))
     wishes: dict[str, Any] = dict.fromkeys(("seed", "max_depth", "threads", "sensors"))
-    # a pixel that one ray in a thousand lights would take for ever
-    wishes |= {"error": error, "time": time, "max_samples": 1 << 16, "camera": (*size, UNITS[unit])}
+    wishes |= {"error": error, "time": time, "max_samples": 1 << 14, "camera": (*size, True)}
     bar = Bar() if sys.stderr.isatty() else None
     try:
-        return run(scene, wishes, bar), 0
+        return run(scene, wishes, bar).sensors[0].value, 0
     except MeasureInterrupted as stopped:
-        return stopped.measurement, 130
+        return stopped.measurement.sensors[0].value, 130
     finally:
         if bar is not None:
             bar.close()
@@ -90,6 +107,11 @@ def picture(source: Path, unit: str) -> Any:
     if source.suffix.lower() not in (".exr", ".hdr"):
         raise ParameterError(f"`{source.name}` ends in `{source.suffix}`, but .toml, .exr and .hdr are accepted")
     pixels = image.read(source)
-    if pixels.shape[2] < 3:
-        return pixels[..., 0].astype(np.float64)
-    return (pixels[..., :3] @ np.array([0.2126, 0.7152, 0.0722])).astype(np.float64)
+    return pixels[..., 0].astype(np.float64) if pixels.shape[2] < 3 else luminance(pixels[..., :3])
+
+
+def luminance(rgb: Any) -> Any:
+    """Luminance of linear Rec.709."""
+    from lesk.plot._figure import LUMINANCE
+
+    return np.asarray(rgb, np.float64) @ LUMINANCE
