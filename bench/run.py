@@ -17,7 +17,7 @@ from table import Table, save
 from timing import load_average, pin
 
 ROOT = Path(__file__).resolve().parent.parent
-SECTIONS = {"batch": "models through NumPy", "rays": "single rays", "paths": "path tracing"}
+SECTIONS = {"batch": "models through NumPy", "rays": "single rays", "paths": "path tracing", "raster": "rasterising"}
 
 
 def parse() -> argparse.Namespace:

@@ -15,6 +15,7 @@ pictures come from that one definition.
 - `lesk.f0`: reflectance of common substances at normal incidence.
 - `lesk.check`: runs the claims of a model.
 - `lesk.measure`, `lesk.lux`: illuminance, luminance and glare at the sensors of a scene, with standard errors.
+- `lesk.shade`, `lesk.mesh`: flat, Gouraud and Phong shading by a rasteriser; what a mesh file holds.
 - `lesk.render`, `lesk.scene`, `lesk.image`: pictures in cd/m², from a scene file to EXR, HDR and PNG.
 
 Nothing is loaded before it is used: `import lesk` takes a few milliseconds.
@@ -37,17 +38,21 @@ from lesk.errors import (
 )
 
 if TYPE_CHECKING:
-    from lesk import f0, figures, image, models, plot, scene, terms
+    from lesk import f0, figures, image, mesh, models, plot, scene, terms
     from lesk._check import CheckReport, check
+    from lesk._compare_shading import Comparison, compare_shading
     from lesk._lesk import __version__
     from lesk._lux import LuxReport, lux
     from lesk._measure import Measurement, MeasureProgress, Readings, measure
     from lesk._model import Delta, Model, Sample
+    from lesk._raster import Classic, Shading, shade
     from lesk._render import Progress, Render, render
 
-_MODULES = ("f0", "figures", "image", "models", "plot", "scene", "terms")
+_MODULES = ("f0", "figures", "image", "mesh", "models", "plot", "scene", "terms")
 _NAMES = {
     "CheckReport": "_check",
+    "Classic": "_raster",
+    "Comparison": "_compare_shading",
     "Delta": "_model",
     "LuxReport": "_lux",
     "MeasureProgress": "_measure",
@@ -57,16 +62,21 @@ _NAMES = {
     "Readings": "_measure",
     "Render": "_render",
     "Sample": "_model",
+    "Shading": "_raster",
     "__version__": "_lesk",
     "check": "_check",
+    "compare_shading": "_compare_shading",
     "lux": "_lux",
     "measure": "_measure",
     "render": "_render",
+    "shade": "_raster",
 }
 
 __all__ = [
     "CheckReport",
     "CheckpointError",
+    "Classic",
+    "Comparison",
     "Delta",
     "FileError",
     "ImageError",
@@ -83,17 +93,21 @@ __all__ = [
     "RenderInterrupted",
     "Sample",
     "SceneError",
+    "Shading",
     "__version__",
     "check",
+    "compare_shading",
     "f0",
     "figures",
     "image",
     "lux",
     "measure",
+    "mesh",
     "models",
     "plot",
     "render",
     "scene",
+    "shade",
     "terms",
 ]
 

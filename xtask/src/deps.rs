@@ -7,7 +7,7 @@ use crate::process::{Error, capture, cargo};
 use serde_json::Value;
 
 /// The level of each crate, as in ARCHITECTURE.md.
-const LEVELS: [(&str, u8); 15] = [
+const LEVELS: [(&str, u8); 16] = [
     ("lesk-math", 0),
     ("lesk-derive", 0),
     ("lesk-quantities", 1),
@@ -19,6 +19,7 @@ const LEVELS: [(&str, u8); 15] = [
     ("lesk-check", 4),
     ("lesk-shader", 4),
     ("lesk-trace", 5),
+    ("lesk-raster", 5),
     ("lesk", 6),
     ("lesk-py", 6),
     ("lesk-fuzz", 6),

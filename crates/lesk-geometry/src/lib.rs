@@ -4,6 +4,7 @@
 //! |---|---|
 //! | [`Transform`] | affine map with its inverse, f64 |
 //! | [`Mesh`] | triangles, checked and repaired once ([`Repairs`]) |
+//! | [`polygons`] | meshes of real polygons: vertex normals, real and auxiliary edges, a report |
 //! | [`Geometry`] | a mesh, or an exact rectangle, sphere, disk or cylinder of unit size |
 //! | [`WorldBuilder`] → [`World`] | instances of geometries; nearest hit, occlusion, surface at a hit |
 //! | [`Surface`] | position, normals, texture coordinates and tangent; where the next ray starts |
@@ -43,6 +44,7 @@ mod bvh;
 mod error;
 pub mod import;
 mod mesh;
+pub mod polygons;
 mod ray;
 mod robust;
 mod shapes;
@@ -54,8 +56,9 @@ pub use bounds::Bounds;
 pub use bvh::{World, WorldBuilder};
 pub use error::{Error, Result};
 pub use mesh::{MAX_COORDINATE, Mesh, MeshData, Repairs};
+pub use polygons::{EdgeRule, NormalRule, PolygonMesh};
 pub use ray::{Hit, Ray};
 pub use shapes::{AreaSampler, Geometry, SurfaceSample, cube, icosphere, rectangle, uv_sphere};
 pub use surface::Surface;
-pub use teapot::teapot;
+pub use teapot::{bezier_patch, teapot};
 pub use transform::{Rows, Transform};

@@ -2,8 +2,10 @@
 
 use crate::bounds::Bounds;
 use crate::error::{Error, Result};
+use crate::polygons::PolygonMesh;
 use crate::transform::{narrow, widen};
 use lesk_math::{Vec3, vec3};
+use std::sync::Arc;
 
 /// The largest coordinate that a vertex may have, in metres: beyond it, squares of coordinates leave the range of f32.
 pub const MAX_COORDINATE: f32 = 1e12;
@@ -49,6 +51,7 @@ impl Repairs {
 pub struct Mesh {
     data: MeshData,
     bounds: Bounds,
+    polygons: Option<Arc<PolygonMesh>>,
 }
 
 impl Mesh {
@@ -68,7 +71,19 @@ impl Mesh {
         repairs.replaced_uvs = repair_uvs(&mut data.uvs);
         repairs.replaced_normals = repair_normals(&mut data);
         repairs.turned_triangles = turn_triangles(&mut data);
-        Ok((Mesh { data, bounds }, repairs))
+        Ok((Mesh { data, bounds, polygons: None }, repairs))
+    }
+
+    /// The same mesh with the polygons that it was cut from.
+    #[must_use]
+    pub fn with_polygons(mut self, polygons: Arc<PolygonMesh>) -> Self {
+        self.polygons = Some(polygons);
+        self
+    }
+
+    /// The polygons that the mesh was cut from, where they say more than its triangles.
+    pub fn polygons(&self) -> Option<&Arc<PolygonMesh>> {
+        self.polygons.as_ref()
     }
 
     /// Vertex positions, metres.
@@ -106,11 +121,13 @@ impl Mesh {
     /// (Thürmer & Wüthrich, *Computing Vertex Normals from Polygonal Facets*, 1998).
     pub fn smooth(&mut self) {
         self.data.normals = angle_weighted_normals(&self.data.positions, &self.data.triangles);
+        self.polygons = self.polygons.as_ref().map(|p| Arc::new(p.smoothed()));
     }
 
     /// Drops the normals: every triangle is flat.
     pub fn flatten(&mut self) {
         self.data.normals = Vec::new();
+        self.polygons = self.polygons.as_ref().map(|p| Arc::new(p.flattened()));
     }
 
     /// Surface area, square metres.
@@ -225,7 +242,7 @@ fn turn_triangles(data: &mut MeshData) -> usize {
 
 /// For every position the number of the first one with the same coordinates: a seam of the texture coordinates is no
 /// seam of the surface.
-fn first_equal(positions: &[Vec3<f32>]) -> Vec<u32> {
+pub(crate) fn first_equal(positions: &[Vec3<f32>]) -> Vec<u32> {
     let mut first = std::collections::HashMap::with_capacity(positions.len());
     // adding 0 turns -0 into 0
     let key = |p: &Vec3<f32>| p.to_array().map(|x| (x + 0.0).to_bits());

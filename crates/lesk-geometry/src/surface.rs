@@ -29,6 +29,13 @@ pub struct Surface {
 }
 
 impl Surface {
+    /// A point of which only place and normal are known: `p` in metres, `n` unit, to the outside.
+    #[inline]
+    pub fn at(p: Vec3<f32>, n: Vec3<f32>) -> Self {
+        let lift = lift(n, abs(p));
+        Surface { p, ng: n, ns: n, uv: [0.0; 2], dpdu: Vec3::ZERO, lift, instance: 0, prim: 0 }
+    }
+
     /// The shading frame: normal `ns`, tangent along `dpdu`.
     #[inline]
     pub fn frame(&self) -> Frame<f32> {

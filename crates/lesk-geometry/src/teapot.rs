@@ -1,9 +1,11 @@
 //! The Utah teapot (Newell 1975), evaluated from its published Bézier patches.
 
 use crate::mesh::{Mesh, MeshData};
+use crate::polygons::{Corner, PolygonData, PolygonMesh, grid_polygons};
 use crate::transform::narrow;
 use lesk_math::{Vec3, vec3};
 use std::collections::HashMap;
+use std::sync::Arc;
 
 /// The control points and patches; see `data/teapot/PROVENANCE.md`.
 const TABLE: &str = include_str!("../../../data/teapot/patches.txt");
@@ -34,7 +36,45 @@ pub fn teapot(level: u32) -> Mesh {
         add_cells(base as u32, n as u32, &mut data);
     }
     data.normals = joined_normals(&data.positions, &normals);
-    Mesh::new(data).expect("the published patches are valid").0
+    let polygons = Arc::new(cells(&data, n as u32));
+    Mesh::new(data).expect("the published patches are valid").0.with_polygons(polygons)
+}
+
+/// The cells of all patches as faces of four corners, three where a side has shrunk to a point.
+fn cells(data: &MeshData, n: u32) -> PolygonMesh {
+    let mut out = PolygonData {
+        positions: data.positions.clone(),
+        normals: data.normals.clone(),
+        uvs: data.uvs.clone(),
+        analytic: true,
+        ..PolygonData::default()
+    };
+    let vertices = (n + 1) * (n + 1);
+    for (patch, i, j) in (0..data.positions.len() as u32 / vertices)
+        .flat_map(|patch| (0..n).flat_map(move |i| (0..n).map(move |j| (patch, i, j))))
+    {
+        let at = |i: u32, j: u32| patch * vertices + i * (n + 1) + j;
+        let mut face = vec![at(i, j), at(i, j + 1), at(i + 1, j + 1), at(i + 1, j)];
+        let position = |v: u32| data.positions[v as usize];
+        face.dedup_by(|b, a| position(*a) == position(*b));
+        if position(face[0]) == position(face[face.len() - 1]) {
+            face.pop();
+        }
+        if face.len() >= 3 {
+            out.sizes.push(face.len() as u32);
+            out.corners.extend(face.iter().map(|&v| Corner { position: v, normal: v, uv: v }));
+        }
+    }
+    PolygonMesh::new(out).expect("the published patches are valid")
+}
+
+/// A bicubic Bézier patch as `level` by `level` faces (1 to 256) with its own normals, which point along dp/du × dp/dv.
+///
+/// The sixteen control points stand row by row; u runs along a row, v from the first row to the last.
+pub fn bezier_patch(points: &[Vec3<f64>; 16], level: u32) -> PolygonMesh {
+    let level = level.clamp(1, MAX_LEVEL);
+    let patch = Patch { points: *points, numbers: std::array::from_fn(|k| k) };
+    grid_polygons(level, level, |u, v| (patch.sum(bernstein(v), bernstein(u)), patch.normal(v, u)))
 }
 
 /// Sixteen control points, rows along the profile, columns around; and their numbers, equal where the points are.

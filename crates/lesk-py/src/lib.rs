@@ -6,8 +6,10 @@ mod draws;
 mod errors;
 mod image;
 mod measure;
+mod meshes;
 mod models;
 mod quantities;
+mod raster;
 mod render;
 mod scenes;
 mod shaders;
@@ -28,12 +30,16 @@ mod _lesk {
     #[pymodule_export]
     use crate::measure::{PyMeasured, measure_scene, measure_tasks};
     #[pymodule_export]
+    use crate::meshes::{mesh_edges, mesh_report_json};
+    #[pymodule_export]
     use crate::models::{delta, evaluate, gradient, registry_json};
     #[pymodule_export]
     use crate::quantities::{
         PySpectrum, blackbody_share_below, observer, quantity_convert, quantity_dimensions, quantity_options,
         quantity_parse, quantity_units, reflectance, rgb_convert, rgb_spaces, rgb_to_xyz, spectrum_names, xyz_to_rgb,
     };
+    #[pymodule_export]
+    use crate::raster::{PyRaster, shade, shaded_surfaces, shading_names};
     #[pymodule_export]
     use crate::render::{PyPicture, render};
     #[pymodule_export]

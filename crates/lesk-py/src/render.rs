@@ -6,7 +6,7 @@ use crate::{errors, image};
 use lesk_image::io::{self, Format, exr, png};
 use lesk_image::{Film, ImageError, ToneMapper, tonemap};
 use lesk_math::Isa;
-use lesk_scene::{RenderSettings, Scene};
+use lesk_scene::Scene;
 use lesk_trace::checkpoint::{self, Identity};
 use lesk_trace::{End, Progress, Settings};
 use numpy::PyArray3;
@@ -39,7 +39,8 @@ pub struct Wishes {
 pub struct PyPicture {
     scene: Arc<Scene>,
     film: Film,
-    render: RenderSettings,
+    /// Settings that decided the picture, for the attributes of its files.
+    settings: Vec<(&'static str, String)>,
     /// `done`, `out of time`, `stopped`.
     #[pyo3(get)]
     ended: &'static str,
@@ -79,7 +80,13 @@ pub fn render(py: Python<'_>, scene: &PyScene, wishes: Wishes, progress: Option<
     };
     let raised = raised.map(|error| error.into_value(py).into_any());
     let seconds = start.elapsed().as_secs_f64();
-    Ok(PyPicture { scene: scene.clone(), film, render: settings.render, ended, seconds, resumed, raised })
+    let settings = vec![
+        ("seed", settings.render.seed.to_string()),
+        ("maxDepth", settings.render.max_depth.to_string()),
+        ("rouletteDepth", settings.render.roulette_depth.to_string()),
+        ("filter", format!("{:?}", scene.film.filter)),
+    ];
+    Ok(PyPicture { scene: scene.clone(), film, settings, ended, seconds, resumed, raised })
 }
 
 fn settings(scene: &Scene, wishes: &Wishes) -> PyResult<Settings> {
@@ -188,17 +195,15 @@ impl PyPicture {
     /// Settings that decided the picture, as the attributes of its files.
     fn attributes(&self) -> Vec<(&'static str, String)> {
         let fingerprint: String = self.scene.fingerprint.iter().map(|byte| format!("{byte:02x}")).collect();
-        vec![
+        let mut out = vec![
             ("software", format!("lesk {}", env!("CARGO_PKG_VERSION"))),
             ("instructionSet", Isa::current().name().to_owned()),
             ("scene", self.scene.title.clone()),
             ("sceneHash", fingerprint),
             ("spectra", self.scene.spectra.join(", ")),
-            ("seed", self.render.seed.to_string()),
-            ("maxDepth", self.render.max_depth.to_string()),
-            ("rouletteDepth", self.render.roulette_depth.to_string()),
-            ("filter", format!("{:?}", self.scene.film.filter)),
-        ]
+        ];
+        out.extend(self.settings.iter().cloned());
+        out
     }
 
     /// Writes the picture; EXR holds all channels, PNG is exposed and tone mapped.
@@ -209,6 +214,11 @@ impl PyPicture {
 }
 
 impl PyPicture {
+    /// A picture that was made without chance.
+    pub fn shaded(scene: Arc<Scene>, film: Film, seconds: f64, settings: Vec<(&'static str, String)>) -> Self {
+        PyPicture { scene, film, settings, ended: "done", seconds, resumed: 0, raised: None }
+    }
+
     fn write(&self, path: &Path, ev100: Option<f64>, mapper: ToneMapper) -> Result<(), ImageError> {
         let mut attributes = self.attributes();
         if let Some(ev100) = ev100 {

@@ -19,6 +19,7 @@ pub use lesk_image as image;
 pub use lesk_light as light;
 pub use lesk_math as math;
 pub use lesk_quantities as quantities;
+pub use lesk_raster as raster;
 pub use lesk_scene as scene;
 pub use lesk_shader as shader;
 pub use lesk_trace as trace;

@@ -15,6 +15,8 @@ COMMANDS = {
     "lux": "Measure the sensors of a scene and check them.",
     "falsecolor": "Show luminance or illuminance in false colours.",
     "validate": "Compare with closed forms.",
+    "compare-shading": "Flat, Gouraud and Phong shading beside what they approximate.",
+    "mesh": "Say what a mesh file holds: faces, edges by kind, normals.",
     "scene": "Check a scene file, or print the schema.",
     "figure": "Make a figure of the lecture, or list them.",
     "lecture": "List the ideas of a lecture on light and shading, or its errata.",
@@ -42,7 +44,7 @@ def main(arguments: list[str] | None = None) -> int:
         return 2
     from lesk.cli._run import run
 
-    return run(import_module(f"lesk.cli.{words[0]}").main, words)
+    return run(import_module(f"lesk.cli.{words[0].replace('-', '_')}").main, words)
 
 
 def overview() -> str:

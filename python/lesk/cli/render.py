@@ -8,8 +8,9 @@ from typing import Annotated
 
 import typer
 
+from lesk._raster import Shading, shade
 from lesk._render import Progress, Render, render
-from lesk.cli._run import Json, emit
+from lesk.cli._run import Json, emit, numbers
 from lesk.errors import ParameterError, RenderInterrupted
 
 ENDINGS = (".exr", ".png", ".hdr")
@@ -25,6 +26,19 @@ def main(
     max_depth: Annotated[int | None, typer.Option(help="Scattering events of a path at most.")] = None,
     split: Annotated[str | None, typer.Option(help="Layers: direct,indirect,specular,caustic.")] = None,
     aovs: Annotated[bool, typer.Option("--aovs", help="Keep albedo, normal, depth and ids.")] = False,
+    engine: Annotated[str, typer.Option(help="path or raster.")] = "path",
+    shading: Annotated[str, typer.Option(help="Raster: flat, gouraud or phong.")] = "phong",
+    interpolation: Annotated[str, typer.Option(help="Raster: bilinear or barycentric.")] = "bilinear",
+    correction: Annotated[str, typer.Option(help="Raster: perspective or screen.")] = "perspective",
+    normals: Annotated[str, typer.Option(help="Raster: given, analytic, mean, area, angle or max1999.")] = "given",
+    crease_angle: Annotated[float | None, typer.Option(help="Raster: edges above are real, degrees.")] = None,
+    tessellation: Annotated[int, typer.Option(help="Raster: faces around a curved shape.")] = 64,
+    supersampling: Annotated[int, typer.Option(help="Raster: samples along each side of a pixel.")] = 1,
+    quadrature: Annotated[int, typer.Option(help="Raster: points per light with an area.")] = 16,
+    shadows: Annotated[bool, typer.Option("--shadows", help="Raster: hard shadows by rays.")] = False,
+    flat_normals: Annotated[bool, typer.Option("--no-renormalize", help="Raster: keep interpolated lengths.")] = False,
+    space: Annotated[str, typer.Option(help="Raster: linear or gamma.")] = "linear",
+    classic: Annotated[str | None, typer.Option(help="Raster: classic model, as ka=0.1,kd=0.5,ks=0.4,h=50.")] = None,
     ev100: Annotated[float | None, typer.Option(help="Exposure of a PNG; else the scene's, else metered.")] = None,
     tonemap: Annotated[str, typer.Option(help="srgb, reinhard, hable, aces, agx or neutral.")] = "srgb",
     checkpoint: Annotated[Path | None, typer.Option(help="Where to keep the exact state.")] = None,
@@ -35,10 +49,32 @@ def main(
 ) -> int:
     """Render a scene. Ctrl-C keeps what is done.
 
-    JSON: `output`, `ended`, `seconds`, `ev100`, `relative_error`, `rejected`, `resumed`.
+    JSON: `output`, `ended`, `seconds`, `ev100`, `relative_error`, `rejected`, `resumed`; with the raster engine also
+    `counts` of faces, vertices, samples and evaluations of models, and `warnings`.
     """
     if output.suffix.lower() not in ENDINGS:
         raise ParameterError(f"`{output.name}` ends in `{output.suffix}`, but {', '.join(ENDINGS)} are accepted")
+    if engine not in ("path", "raster"):
+        raise ParameterError(f"there is no engine `{engine}`, but path, raster are accepted")
+    if engine == "raster":
+        shaded = shade(
+            scene,
+            shading=shading,
+            interpolation=interpolation,
+            correction=correction,
+            normals=normals,
+            crease_angle_deg=crease_angle,
+            tessellation=tessellation,
+            renormalize=not flat_normals,
+            supersampling=supersampling,
+            quadrature=quadrature,
+            shadows=shadows,
+            space=space,
+            classic=classic_of(classic),
+            aovs=aovs,
+            threads=threads,
+        )
+        return finish_shading(shaded, output, ev100, tonemap, json=json, quiet=quiet)
     if resume and checkpoint is None:
         checkpoint = output.with_suffix(".checkpoint")
     bar = None if quiet or not sys.stderr.isatty() else Bar()
@@ -71,6 +107,44 @@ def main(
     if status == 0 and checkpoint is not None and picture.ended == "done":
         checkpoint.unlink(missing_ok=True)
     return status
+
+
+def classic_of(words: str | None) -> dict[str, object] | None:
+    """Read `ka=0.1,kd=0.5,ks=0.4,h=50,highlight=blinn`; no words give None."""
+    if words is None:
+        return None
+    out: dict[str, object] = {}
+    for word in filter(None, words.split(",")):
+        name, _, value = word.partition("=")
+        name = "shininess" if name == "h" else name
+        if name not in ("ka", "kd", "ks", "shininess", "highlight") or not value:
+            raise ParameterError(
+                f"`--classic` has `{word}`, but ka=, kd=, ks=, h= with a number and highlight=phong or blinn are accepted"
+            )
+        out[name] = value if name == "highlight" else numbers(value, f"--classic {name}")[0]
+    return out
+
+
+def finish_shading(
+    shaded: Shading, output: Path, ev100: float | None, mapper: str, *, json: bool, quiet: bool
+) -> int:
+    """Write a rasterised picture and say what it took."""
+    save(shaded, output, ev100, mapper)
+    if json:
+        emit({**facts(shaded, output, ev100), "counts": shaded.counts, "warnings": shaded.warnings})
+        return 0
+    if not quiet:
+        for warning in shaded.warnings:
+            print(f"warning: {warning}", file=sys.stderr)
+        exposure = shaded.ev100 if ev100 is None else ev100
+        shown = "" if exposure is None else f", EV100 {exposure:.2f}"
+        counts = shaded.counts
+        print(
+            f"{output}: {shaded.milliseconds[-1]:.1f} ms, {counts['faces']} faces, {counts['vertices']} vertices, "
+            f"{counts['samples']} samples, models evaluated at {counts['evaluations']} points{shown}",
+            file=sys.stderr,
+        )
+    return 0
 
 
 def save(picture: Render, output: Path, ev100: float | None, mapper: str) -> None:

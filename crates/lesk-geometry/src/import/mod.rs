@@ -7,11 +7,11 @@ pub mod gltf;
 pub mod mtl;
 pub mod obj;
 pub mod ply;
-mod polygon;
 mod source;
 
 use crate::error::{Error, Result};
 use crate::mesh::{Mesh, MeshData};
+use crate::polygons::{PolygonData, PolygonMesh};
 use crate::transform::Transform;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -299,7 +299,14 @@ impl Asset {
     }
 
     /// Checks a mesh, notes its repairs and adds it; nothing is added where no triangle is left.
-    fn add_mesh(&mut self, name: &str, data: MeshData, material: Option<usize>) -> Result<Option<usize>> {
+    /// `polygons` are given where they say more than the triangles.
+    fn add_mesh(
+        &mut self,
+        name: &str,
+        data: MeshData,
+        polygons: Option<PolygonData>,
+        material: Option<usize>,
+    ) -> Result<Option<usize>> {
         let place = if name.is_empty() { "mesh".to_string() } else { format!("mesh `{name}`") };
         let (mesh, repairs) = Mesh::new(data).map_err(|e| e.at(&place))?;
         for (count, what) in [
@@ -316,6 +323,10 @@ impl Asset {
             self.warn(format!("{place}: no triangle left, dropped"));
             return Ok(None);
         }
+        let mesh = match polygons {
+            Some(polygons) => mesh.with_polygons(Arc::new(PolygonMesh::new(polygons).map_err(|e| e.at(&place))?)),
+            None => mesh,
+        };
         self.meshes.push(NamedMesh { name: name.to_string(), mesh: Arc::new(mesh), material });
         Ok(Some(self.meshes.len() - 1))
     }

@@ -1,12 +1,12 @@
-//! Wavefront OBJ: positions, normals, texture coordinates, polygons, materials by name.
+//! Wavefront OBJ: positions, normals, texture coordinates, polygons, smoothing groups, materials by name.
 //!
 //! Faces are collected into one mesh per object or group and material. Lines, points, curves and free-form surfaces are
 //! skipped with a warning.
 
 use super::mtl::{self, Library};
-use super::polygon::triangulate;
 use super::{Asset, Error, Result, inside_folder, read_file};
 use crate::mesh::MeshData;
+use crate::polygons::{self, PolygonData, triangulate};
 use lesk_math::{Vec3, vec3};
 use std::collections::HashMap;
 use std::path::Path;
@@ -43,6 +43,8 @@ const NONE: u32 = u32::MAX;
 struct Part {
     /// Corner counts of the polygons.
     sizes: Vec<u32>,
+    /// Smoothing groups of the polygons, 0 where off.
+    groups: Vec<u32>,
     corners: Vec<Corner>,
 }
 
@@ -55,6 +57,8 @@ struct Reader {
     parts: Vec<((String, Option<usize>), Part)>,
     part_of: HashMap<(String, Option<usize>), usize>,
     object: String,
+    /// The current smoothing group; `None` while the file has stated none.
+    group: Option<u32>,
     material: Option<usize>,
     current: Option<usize>,
     /// Names of materials in order of their first use.
@@ -128,7 +132,8 @@ impl Reader {
             }
             "usemtl" => self.use_material(name()),
             "mtllib" => self.read_library(&name(), &rest, load)?,
-            "s" | "mg" | "vp" => {}
+            "s" => self.group = Some(smoothing_group(&rest)?),
+            "mg" | "vp" => {}
             other => *self.skipped.entry(other.chars().take(20).collect()).or_default() += 1,
         }
         Ok(())
@@ -173,6 +178,7 @@ impl Reader {
         }
         let size = self.parts[part].1.corners.len() - start;
         self.parts[part].1.sizes.push(size as u32);
+        self.parts[part].1.groups.push(self.group.unwrap_or(0));
         Ok(())
     }
 
@@ -233,13 +239,33 @@ impl Reader {
                 _ => object,
             };
             let data = self.mesh_data(&part);
-            self.asset.add_mesh(&name, data, material)?;
+            let polygons = self.polygons(&part);
+            self.asset.add_mesh(&name, data, polygons, material)?;
         }
         if self.asset.meshes.is_empty() {
             return Err(Error::new("file has no faces"));
         }
         self.asset.place_all();
         Ok(self.asset)
+    }
+
+    /// The faces as they are, where they say more than triangles with their corners' normals.
+    fn polygons(&self, part: &Part) -> Option<PolygonData> {
+        if self.group.is_none() && part.sizes.iter().all(|&s| s == 3) {
+            return None;
+        }
+        let mut used = Used::default();
+        let mut data = PolygonData { sizes: part.sizes.clone(), ..PolygonData::default() };
+        for corner in &part.corners {
+            let position = used.number(0, corner[0], || data.positions.push(self.positions[corner[0] as usize]));
+            let uv = used.number(1, corner[1], || data.uvs.push(self.uvs[corner[1] as usize]));
+            let normal = used.number(2, corner[2], || data.normals.push(self.normals[corner[2] as usize]));
+            data.corners.push(polygons::Corner { position, normal, uv });
+        }
+        if self.group.is_some() {
+            data.smoothing = part.groups.clone();
+        }
+        Some(data)
     }
 
     /// One vertex per distinct corner.
@@ -271,6 +297,34 @@ impl Reader {
             triangulate(&data.positions, &polygon, &mut data.triangles);
         }
         data
+    }
+}
+
+/// `s 1` begins a smoothing group, `s off` and `s 0` end it.
+fn smoothing_group(words: &[&str]) -> Result<u32> {
+    match words {
+        ["off", ..] => Ok(0),
+        [number, ..] => number.parse().map_err(|_| {
+            Error::new(format!("`{}` is no smoothing group, a number or `off` is accepted", number.escape_debug()))
+        }),
+        [] => Err(Error::new("`s` has no smoothing group, a number or `off` is accepted")),
+    }
+}
+
+/// Numbers of a file counted anew for one part of it.
+#[derive(Default)]
+struct Used([HashMap<u32, u32>; 3]);
+
+impl Used {
+    fn number(&mut self, kind: usize, old: u32, first: impl FnOnce()) -> u32 {
+        if old == NONE {
+            return polygons::NONE;
+        }
+        let next = self.0[kind].len() as u32;
+        *self.0[kind].entry(old).or_insert_with(|| {
+            first();
+            next
+        })
     }
 }
 

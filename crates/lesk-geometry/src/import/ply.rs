@@ -3,10 +3,10 @@
 //! The element `vertex` needs `x`, `y`, `z` and may have `nx`, `ny`, `nz` and `u`, `v` (also `s`, `t` and `texture_u`,
 //! `texture_v`); the element `face` needs the list `vertex_indices` (also `vertex_index`). Anything else is skipped.
 
-use super::polygon::triangulate;
 use super::source::{Endian, Scalar, Source};
 use super::{Asset, Error, Result};
 use crate::mesh::MeshData;
+use crate::polygons::{Corner, NONE, PolygonData, triangulate};
 use lesk_math::{Vec3, vec3};
 use std::io::Read;
 use std::path::Path;
@@ -31,12 +31,13 @@ pub fn from_reader(reader: impl Read, length: u64, name: &str) -> Result<Asset> 
     let mut source = Source::new(reader, length);
     let (format, elements) = header(&mut source)?;
     let mut data = MeshData::default();
+    let mut polygons = Polygons::default();
     for element in &elements {
         let place = |e: Error| e.at(format!("element `{}`", element.name));
         element.check_size(format, source.remaining()).map_err(place)?;
         let read = match element.name.as_str() {
             "vertex" => vertices(&mut source, format, element, &mut data),
-            "face" => faces(&mut source, format, element, &mut data),
+            "face" => faces(&mut source, format, element, &mut data, &mut polygons),
             _ => skip(&mut source, format, element),
         };
         read.map_err(place)?;
@@ -49,7 +50,8 @@ pub fn from_reader(reader: impl Read, length: u64, name: &str) -> Result<Asset> 
     }
     data.triangles.shrink_to_fit();
     let mut asset = Asset::default();
-    asset.add_mesh(name, data, None)?;
+    let polygons = polygons.data(&data);
+    asset.add_mesh(name, data, polygons, None)?;
     asset.place_all();
     Ok(asset)
 }
@@ -187,7 +189,52 @@ fn vertices<R: Read>(source: &mut Source<R>, format: Format, element: &Element, 
     Ok(())
 }
 
-fn faces<R: Read>(source: &mut Source<R>, format: Format, element: &Element, data: &mut MeshData) -> Result<()> {
+/// The faces as the file has them, kept from the first one on that is no triangle.
+#[derive(Default)]
+struct Polygons {
+    sizes: Vec<u32>,
+    corners: Vec<u32>,
+}
+
+impl Polygons {
+    /// Adds a face; `before` are the triangles of all faces before it.
+    fn add(&mut self, polygon: &[u32], before: &[[u32; 3]]) {
+        if polygon.len() < 3 || (polygon.len() == 3 && self.sizes.is_empty()) {
+            return;
+        }
+        if self.sizes.is_empty() {
+            self.sizes = vec![3; before.len()];
+            self.corners = before.as_flattened().to_vec();
+        }
+        self.sizes.push(polygon.len() as u32);
+        self.corners.extend(polygon);
+    }
+
+    fn data(self, mesh: &MeshData) -> Option<PolygonData> {
+        if self.sizes.is_empty() {
+            return None;
+        }
+        let number = |has: bool, i: u32| if has { i } else { NONE };
+        let (has_normals, has_uvs) = (!mesh.normals.is_empty(), !mesh.uvs.is_empty());
+        let corner = |&i: &u32| Corner { position: i, normal: number(has_normals, i), uv: number(has_uvs, i) };
+        Some(PolygonData {
+            positions: mesh.positions.clone(),
+            normals: mesh.normals.clone(),
+            uvs: mesh.uvs.clone(),
+            corners: self.corners.iter().map(corner).collect(),
+            sizes: self.sizes,
+            ..PolygonData::default()
+        })
+    }
+}
+
+fn faces<R: Read>(
+    source: &mut Source<R>,
+    format: Format,
+    element: &Element,
+    data: &mut MeshData,
+    polygons: &mut Polygons,
+) -> Result<()> {
     let Some(indices) = element.position(&["vertex_indices", "vertex_index"]) else {
         return Err(Error::new("a face needs the list `vertex_indices`"));
     };
@@ -202,6 +249,7 @@ fn faces<R: Read>(source: &mut Source<R>, format: Format, element: &Element, dat
             let list = (k == indices).then_some(&mut polygon);
             property_values(source, format, property, list).map_err(place)?;
         }
+        polygons.add(&polygon, &data.triangles);
         triangulate(&data.positions, &polygon, &mut data.triangles);
     }
     Ok(())

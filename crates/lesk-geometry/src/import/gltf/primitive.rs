@@ -57,7 +57,7 @@ fn add_primitive(
     let corners = corners(document, primitive, positions.count, budget)?;
     let triangles = triangles(mode, &corners);
     let data = mesh_data(document, primitive, &positions, triangles, uv_set(asset, material))?;
-    asset.add_mesh(name, data, material)
+    asset.add_mesh(name, data, None, material)
 }
 
 /// The set of texture coordinates that the base colour uses.

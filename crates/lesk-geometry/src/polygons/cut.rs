@@ -11,7 +11,7 @@ const MAX_EARS: usize = 64;
 /// A quadrilateral is cut along the diagonal that leaves no triangle turned over, and of two such along the shorter
 /// one; larger polygons by ears (Meisters 1975) in the plane of their normal. Numbers out of range are passed on as a
 /// fan, for the mesh to report.
-pub(super) fn triangulate(positions: &[Vec3<f32>], polygon: &[u32], out: &mut Vec<[u32; 3]>) {
+pub fn triangulate(positions: &[Vec3<f32>], polygon: &[u32], out: &mut Vec<[u32; 3]>) {
     let fan = |out: &mut Vec<[u32; 3]>| {
         out.extend((2..polygon.len()).map(|i| [polygon[0], polygon[i - 1], polygon[i]]));
     };

@@ -1,0 +1,398 @@
+//! A picture: vertices to the screen, faces into bands of rows, bands to light.
+
+use crate::band::{BandJob, Buffers};
+use crate::clip::{Clipped, clip};
+use crate::error::Result;
+use crate::lanes::{Points, Work};
+use crate::lights::at;
+use crate::prepare::Prepared;
+use crate::scan::centres;
+use crate::settings::{FlatPoint, Mode, Settings};
+use crate::shade::{Kind, Shader};
+use crate::view::{Screen, View};
+use lesk_bsdf::kernels::BLOCK;
+use lesk_geometry::World;
+use lesk_image::{Aov, Film, FilmSpec, Sample};
+use lesk_math::{CHANNELS, Vec3, vec3};
+use lesk_scene::Scene;
+use rayon::prelude::*;
+use std::collections::HashMap;
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+/// Rows of a band: its depths and face numbers stay in the second-level cache.
+const BAND: u32 = 32;
+
+/// Faces that are placed together.
+const CHUNK: usize = 4096;
+
+/// Entries of a bin with this bit are numbers of clipped faces.
+pub(crate) const CLIPPED: u32 = 1 << 31;
+
+/// How much was done.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Count {
+    /// Faces of the scene.
+    pub faces: u64,
+    /// Faces that may show: not turned away, not beside the screen, not too small to cover a sample.
+    pub drawn: u64,
+    /// Vertices, split where normals or texture coordinates differ.
+    pub vertices: u64,
+    /// Samples that a face covers.
+    pub samples: u64,
+    /// Points at which light was computed: faces, vertices or samples.
+    pub evaluations: u64,
+    /// Wall-clock time of the frame, without preparing the scene.
+    pub elapsed: Duration,
+}
+
+/// Chunks of faces, sorted into bands.
+pub(crate) struct Chunk {
+    pub bins: Vec<Vec<u32>>,
+    pub clipped: Vec<Clipped>,
+    /// Clipped faces of all chunks before.
+    pub offset: u32,
+}
+
+/// A scene whose faces and vertices are ready, for any number of frames.
+pub struct Raster {
+    pub(crate) scene: Arc<Scene>,
+    pub(crate) settings: Settings,
+    pub(crate) prepared: Prepared,
+    pub(crate) view: View,
+    /// The kind of each object, as a number in `kinds`.
+    pub(crate) kind_of: Vec<u32>,
+    pub(crate) kinds: Vec<Kind>,
+    obstacles: Option<World>,
+    pub(crate) screen: Vec<Screen>,
+    /// Light of vertices or faces, for the modes that interpolate or repeat it.
+    pub(crate) light: Vec<[f32; 3]>,
+}
+
+/// What a sample shows.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SampleHit {
+    /// Number of the face, from 0; with barycentric interpolation, of the triangle.
+    pub face: u32,
+    /// First-hit values.
+    pub aov: Aov,
+}
+
+/// The samples of a frame.
+#[derive(Clone, Debug, Default)]
+pub struct Frame {
+    /// Samples across and down.
+    pub width: u32,
+    /// Samples down.
+    pub height: u32,
+    /// Samples along each side of a pixel.
+    pub supersampling: u32,
+    /// Linear Rec.709 whose Y is cd/m², three numbers per sample, row by row.
+    pub rgb: Vec<f32>,
+    /// What each sample shows, where the settings ask for it.
+    pub hits: Vec<Option<SampleHit>>,
+    /// What was done.
+    pub work: Count,
+}
+
+impl Raster {
+    /// Makes faces and vertices.
+    ///
+    /// # Errors
+    /// Settings out of range, analytic normals of a surface that has none, a film that is too large.
+    pub fn new(scene: Arc<Scene>, settings: &Settings) -> Result<Self> {
+        settings.check()?;
+        let prepared = Prepared::new(&scene, settings)?;
+        let view = View::new(&scene, settings.supersampling, prepared.extent)?;
+        let obstacles = if settings.shadows { Some(prepared.world()?) } else { None };
+        let mut number: HashMap<Kind, u32> = HashMap::new();
+        let mut kinds = Vec::new();
+        let kind_of = scene.objects.iter().map(|object| {
+            let kind = Kind { material: object.material, light: object.light };
+            *number.entry(kind).or_insert_with(|| {
+                kinds.push(kind);
+                kinds.len() as u32 - 1
+            })
+        });
+        let kind_of = kind_of.collect();
+        let settings = settings.clone();
+        Ok(Raster { scene, settings, prepared, view, kind_of, kinds, obstacles, screen: vec![], light: vec![] })
+    }
+
+    /// The surfaces as the rasteriser sees them, for rays: one mesh per object, in the order of the scene.
+    ///
+    /// # Errors
+    /// More triangles than a world can hold.
+    pub fn world(&self) -> Result<World> {
+        self.prepared.world()
+    }
+
+    /// Warnings for the user, one sentence each.
+    pub fn warnings(&self) -> Vec<String> {
+        let mut out: Vec<String> = self.settings.classic.iter().filter_map(|c| c.warning()).collect();
+        if self.scene.camera.lens_radius() > 0.0 {
+            out.push("the lens of the camera is left out: the rasteriser has pinholes only".into());
+        }
+        if self.settings.classic.is_none() {
+            let mirrors = self.scene.materials.iter().filter(|m| {
+                let mut params = [0.0; lesk_scene::MAX_PARAMS];
+                let params = m.params([0.5; 2], &mut params);
+                let wo = vec3(0.6, 0.0, 0.8);
+                m.model().delta(params, wo).is_some_and(|[a, b]| a.probability + b.probability >= 1.0)
+            });
+            out.extend(
+                mirrors
+                    .map(|m| format!("material `{}` reflects in single directions only: it is black here", m.name())),
+            );
+        }
+        out
+    }
+
+    /// Draws a frame.
+    pub fn frame(&mut self) -> Frame {
+        let mut frame = Frame::default();
+        self.draw(&mut frame);
+        frame
+    }
+
+    /// Draws a frame into the memory of an earlier one.
+    pub fn draw(&mut self, frame: &mut Frame) {
+        let start = Instant::now();
+        let view = &self.view;
+        let place = |p: &Vec3<f32>| view.snap(view.project(*p));
+        self.prepared.positions.par_iter().map(place).collect_into_vec(&mut self.screen);
+        let chunks = self.place_faces();
+        let obstacles = self.obstacles.take();
+        let shader = Shader::new(&self.scene, &self.settings, self.view.eye, obstacles.as_ref());
+        let (light, before) = self.light_of_corners(&shader, &chunks);
+        self.light = light;
+        (frame.width, frame.height) = (self.view.width, self.view.height);
+        frame.supersampling = self.settings.supersampling;
+        let samples = frame.width as usize * frame.height as usize;
+        frame.rgb.resize(3 * samples, 0.0);
+        frame.hits.clear();
+        frame.hits.resize(if self.settings.aovs { samples } else { 0 }, None);
+        let counts = self.bands(&shader, &chunks, frame);
+        drop(shader);
+        let drawn = chunks.iter().map(|c| c.bins.iter().map(Vec::len).sum::<usize>() as u64).sum();
+        let phong = self.settings.shading == Mode::Phong;
+        frame.work = Count {
+            faces: self.prepared.face_count() as u64,
+            drawn,
+            vertices: self.prepared.positions.len() as u64,
+            samples: counts,
+            evaluations: if phong { counts } else { before },
+            elapsed: start.elapsed(),
+        };
+        self.obstacles = obstacles;
+    }
+
+    fn bands(&self, shader: &Shader, chunks: &[Chunk], frame: &mut Frame) -> u64 {
+        let row = 3 * frame.width as usize * BAND as usize;
+        let per_band = frame.width as usize * BAND as usize;
+        let keeps_hits = self.settings.aovs;
+        let mut hit_bands: Vec<&mut [Option<SampleHit>]> = frame.hits.chunks_mut(per_band).collect();
+        if !keeps_hits {
+            hit_bands.resize_with(frame.rgb.len().div_ceil(row), || &mut []);
+        }
+        let job = BandJob { raster: self, shader, chunks };
+        frame
+            .rgb
+            .par_chunks_mut(row)
+            .zip(hit_bands)
+            .enumerate()
+            .map_init(Buffers::new, |buffers, (band, (rgb, hits))| {
+                let first = band as u32 * BAND;
+                let rows = first..(first + BAND).min(self.view.height);
+                job.run(buffers, band, rows, rgb, hits)
+            })
+            .sum()
+    }
+
+    /// Sorts faces into bands, in their order.
+    fn place_faces(&self) -> Vec<Chunk> {
+        let bands = self.view.height.div_ceil(BAND) as usize;
+        let faces = self.prepared.face_count();
+        let mut chunks: Vec<Chunk> = (0..faces.div_ceil(CHUNK))
+            .into_par_iter()
+            .map(|chunk| {
+                let mut out = Chunk { bins: vec![Vec::new(); bands], clipped: Vec::new(), offset: 0 };
+                for face in chunk * CHUNK..((chunk + 1) * CHUNK).min(faces) {
+                    self.place_face(face, &mut out);
+                }
+                out
+            })
+            .collect();
+        let mut offset = 0;
+        for chunk in &mut chunks {
+            chunk.offset = offset;
+            offset += chunk.clipped.len() as u32;
+        }
+        chunks
+    }
+
+    #[inline]
+    fn place_face(&self, face: usize, out: &mut Chunk) {
+        let corners = self.prepared.face(face);
+        let screen = |v: u32| self.screen[v as usize];
+        if corners.iter().any(|&v| screen(v).x == Screen::CLIP) {
+            if let Some(clipped) = clip(&self.prepared, &self.view, face as u32) {
+                let number = CLIPPED | out.clipped.len() as u32;
+                let shown = self.sort(number, clipped.corners.iter().map(|c| c.screen), out);
+                if shown {
+                    out.clipped.push(clipped);
+                }
+            }
+            return;
+        }
+        self.sort(face as u32, corners.iter().map(|&v| screen(v)), out);
+    }
+
+    /// Adds a face to its bands; `false` where it cannot show.
+    #[inline]
+    fn sort(&self, entry: u32, corners: impl Iterator<Item = Screen> + Clone, out: &mut Chunk) -> bool {
+        let (mut low, mut high) = ([i32::MAX; 2], [i32::MIN; 2]);
+        for c in corners.clone() {
+            low = [low[0].min(c.x), low[1].min(c.y)];
+            high = [high[0].max(c.x), high[1].max(c.y)];
+        }
+        let columns = centres(low[0], high[0], self.view.width);
+        let rows = centres(low[1], high[1], self.view.height);
+        if columns.is_empty() || rows.is_empty() || (self.settings.cull && signed_area(corners) >= 0) {
+            return false;
+        }
+        for band in rows.start / BAND..=(rows.end - 1) / BAND {
+            out.bins[band as usize].push(entry);
+        }
+        true
+    }
+
+    /// Light of all vertices (Gouraud) or faces (flat) that may show, and how many they are.
+    fn light_of_corners(&self, shader: &Shader, chunks: &[Chunk]) -> (Vec<[f32; 3]>, u64) {
+        let gouraud = match self.settings.shading {
+            Mode::Phong => return (Vec::new(), 0),
+            Mode::Gouraud => true,
+            Mode::Flat => false,
+        };
+        let count = if gouraud { self.prepared.positions.len() } else { self.prepared.face_count() };
+        let mut kind = vec![u32::MAX; count];
+        let faces = chunks.iter().flat_map(|c| c.bins.iter().flatten().map(move |&e| self.face_of(c, e)));
+        for face in faces {
+            let own = self.kind_of[self.prepared.objects[face] as usize];
+            match gouraud {
+                true => self.prepared.face(face).iter().for_each(|&v| kind[v as usize] = own),
+                false => kind[face] = own,
+            }
+        }
+        let mut order: Vec<u32> = (0..count as u32).filter(|&i| kind[i as usize] != u32::MAX).collect();
+        order.sort_by_key(|&i| kind[i as usize]);
+        let mut light = vec![[0.0; 3]; count];
+        let blocks: Vec<&[u32]> =
+            order.chunk_by(|&a, &b| kind[a as usize] == kind[b as usize]).flat_map(|c| c.chunks(BLOCK)).collect();
+        let lit: Vec<Vec<[f32; 3]>> = blocks
+            .par_iter()
+            .map_init(
+                || (Points::new(), Work::new()),
+                |(points, work), block| {
+                    points.n = 0;
+                    block.iter().for_each(|&i| self.add_corner(gouraud, i as usize, points));
+                    shader.shade(self.kinds[kind[block[0] as usize] as usize], points, work);
+                    (0..points.n).map(|i| [0, 1, 2].map(|c| work.sum[c.min(CHANNELS - 1)][i])).collect()
+                },
+            )
+            .collect();
+        for (block, lit) in blocks.iter().zip(&lit) {
+            block.iter().zip(lit).for_each(|(&i, l)| light[i as usize] = *l);
+        }
+        let evaluations = order.len() as u64;
+        (light, evaluations)
+    }
+
+    /// The face of an entry of a bin.
+    pub(crate) fn face_of(&self, chunk: &Chunk, entry: u32) -> usize {
+        match entry & CLIPPED {
+            0 => entry as usize,
+            _ => chunk.clipped[(entry & !CLIPPED) as usize].face as usize,
+        }
+    }
+
+    /// Adds a vertex with its own normal as that of its surface, or a face with its point.
+    fn add_corner(&self, gouraud: bool, index: usize, points: &mut Points) {
+        let data = &self.prepared;
+        let (p, n, uv, tangent) = if gouraud {
+            (data.positions[index], data.normals[index], data.uvs[index], Vec3::ZERO)
+        } else {
+            let face = data.face(index);
+            let count = match self.settings.flat_point {
+                FlatPoint::Centroid => face.len(),
+                FlatPoint::First => 1,
+            };
+            let mean = |of: &dyn Fn(usize) -> f64| {
+                face[..count].iter().map(|&v| of(v as usize)).sum::<f64>() as f32 / count as f32
+            };
+            let position = |k: usize| mean(&|v| f64::from(data.positions[v].to_array()[k]));
+            let uv = [0, 1].map(|k| mean(&|v| f64::from(data.uvs[v][k])));
+            let n = data.face_normal(index).map(|x| x as f32);
+            (vec3(position(0), position(1), position(2)), n, uv, data.tangent(index))
+        };
+        let i = points.n;
+        for c in 0..3 {
+            points.p[c][i] = p.to_array()[c];
+            points.ns[c][i] = n.to_array()[c];
+            points.ng[c][i] = n.to_array()[c];
+            points.tangent[c][i] = tangent.to_array()[c];
+        }
+        points.uv[0][i] = uv[0];
+        points.uv[1][i] = uv[1];
+        points.n += 1;
+    }
+}
+
+/// Twice the signed area on the screen, square steps: negative where corners run counter-clockwise for the viewer (y is
+/// down).
+fn signed_area(corners: impl Iterator<Item = Screen> + Clone) -> i64 {
+    let next = corners.clone().cycle().skip(1);
+    let term = |(a, b): (Screen, Screen)| i64::from(a.x) * i64::from(b.y) - i64::from(b.x) * i64::from(a.y);
+    corners.zip(next).map(term).sum()
+}
+
+impl Frame {
+    /// The frame as a film: every pixel holds its samples.
+    ///
+    /// # Errors
+    /// A film that memory cannot hold.
+    pub fn film(&self) -> std::result::Result<Film, lesk_image::ImageError> {
+        let s = self.supersampling.max(1);
+        let spec = FilmSpec {
+            width: self.width / s,
+            height: self.height / s,
+            splits: Vec::new(),
+            aovs: !self.hits.is_empty(),
+        };
+        let mut film = Film::new(spec)?;
+        for (k, rgb) in self.rgb.as_chunks::<3>().0.iter().enumerate() {
+            let (x, y) = (k as u32 % self.width / s, k as u32 / self.width / s);
+            let aov = self.hits.get(k).copied().flatten().map(|h| h.aov);
+            film.add(x, y, &Sample { radiance: *rgb, splits: &[], aov });
+        }
+        Ok(film)
+    }
+}
+
+/// First-hit values of a shaded point.
+pub(crate) fn aov(
+    points: &Points,
+    i: usize,
+    albedo: [f32; 3],
+    eye: Vec3<f32>,
+    object: u32,
+    material: Option<u32>,
+) -> Aov {
+    Aov {
+        albedo,
+        normal: at(&points.ns, i).to_array(),
+        depth: (at(&points.p, i) - eye).length(),
+        object: object + 1,
+        material: material.map_or(0, |m| m + 1),
+    }
+}

@@ -1,0 +1,296 @@
+//! Loops over blocks of points, compiled for each instruction set. Products and sums do not fuse, so every instruction set
+//! gives the same bits.
+
+use lesk_bsdf::kernels::{BLOCK, Row};
+use lesk_math::{CHANNELS, Isa};
+
+/// Three rows: vectors.
+pub(crate) type Rows3 = [Row; 3];
+
+/// Points of one kind of surface, waiting to be shaded.
+pub(crate) struct Points {
+    pub n: usize,
+    /// World position, metres.
+    pub p: Rows3,
+    /// Interpolated normal; unit length after [`Lanes::orient`].
+    pub ns: Rows3,
+    /// Normal of the face, unit.
+    pub ng: Rows3,
+    pub tangent: Rows3,
+    pub uv: [Row; 2],
+    /// Where the result goes.
+    pub target: [u32; BLOCK],
+}
+
+impl Points {
+    pub fn new() -> Box<Points> {
+        let zero = [[0.0; BLOCK]; 3];
+        Box::new(Points { n: 0, p: zero, ns: zero, ng: zero, tangent: zero, uv: [[0.0; BLOCK]; 2], target: [0; BLOCK] })
+    }
+}
+
+/// What is computed for a block of points.
+pub(crate) struct Work {
+    /// Towards the viewer, world space.
+    pub wo: Rows3,
+    /// 1 where the point scatters towards the viewer, else 0.
+    pub alive: Row,
+    /// Length of the interpolated normal; 1 where it is renormalised.
+    pub length: Row,
+    /// Tangent and bitangent.
+    pub t: Rows3,
+    pub b: Rows3,
+    pub wo_local: Rows3,
+    /// Towards the light, world space.
+    pub wi: Rows3,
+    pub wi_local: Rows3,
+    /// What arrives from there, per channel: illuminance of a plane perpendicular to `wi`.
+    pub value: [Row; CHANNELS],
+    /// f, per channel.
+    pub f: [Row; CHANNELS],
+    /// The sum of light, per channel.
+    pub sum: [Row; CHANNELS],
+}
+
+impl Work {
+    pub fn new() -> Box<Work> {
+        let (zero, color) = ([[0.0; BLOCK]; 3], [[0.0; BLOCK]; CHANNELS]);
+        Box::new(Work {
+            wo: zero,
+            alive: [0.0; BLOCK],
+            length: [1.0; BLOCK],
+            t: zero,
+            b: zero,
+            wo_local: zero,
+            wi: zero,
+            wi_local: zero,
+            value: color,
+            f: color,
+            sum: color,
+        })
+    }
+}
+
+/// How a surface meets the viewer.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Sides {
+    /// Light may pass: nothing is turned.
+    pub transmits: bool,
+    pub two_sided: bool,
+    pub renormalize: bool,
+    /// Tangents matter.
+    pub anisotropic: bool,
+}
+
+#[inline(always)]
+fn dot(a: &Rows3, b: &Rows3, i: usize) -> f32 {
+    a[0][i] * b[0][i] + a[1][i] * b[1][i] + a[2][i] * b[2][i]
+}
+
+/// Directions to the viewer, normals on its side, and frames around them; the same decisions as the path tracer makes.
+#[inline(always)]
+fn orient_body(points: &mut Points, work: &mut Work, eye: [f32; 3], sides: Sides) {
+    let n = points.n.min(BLOCK);
+    for i in 0..n {
+        let d = [eye[0] - points.p[0][i], eye[1] - points.p[1][i], eye[2] - points.p[2][i]];
+        let inverse = 1.0 / (d[0] * d[0] + d[1] * d[1] + d[2] * d[2]).sqrt();
+        for c in 0..3 {
+            work.wo[c][i] = d[c] * inverse;
+        }
+        let length = dot(&points.ns, &points.ns, i).sqrt();
+        let usable = length > 1e-12;
+        let scale = if usable { 1.0 / length } else { 1.0 };
+        work.length[i] = if sides.renormalize | !usable { 1.0 } else { length.min(1.0) };
+        for c in 0..3 {
+            points.ns[c][i] = if usable { points.ns[c][i] * scale } else { points.ng[c][i] };
+        }
+        // normals that a coarse mesh bends beyond the horizon are no use
+        let bent = dot(&points.ns, &points.ng, i) <= 1e-4;
+        for c in 0..3 {
+            points.ns[c][i] = if bent { points.ng[c][i] } else { points.ns[c][i] };
+        }
+        let behind = dot(&points.ng, &work.wo, i) < 0.0;
+        let turned = behind & !sides.transmits & sides.two_sided;
+        work.alive[i] = if behind & !sides.transmits & !sides.two_sided { 0.0 } else { 1.0 };
+        let sign = if turned { -1.0 } else { 1.0 };
+        for c in 0..3 {
+            points.ng[c][i] *= sign;
+            points.ns[c][i] *= sign;
+        }
+        let agree = (dot(&points.ns, &work.wo, i) > 0.0) == (dot(&points.ng, &work.wo, i) > 0.0);
+        for c in 0..3 {
+            points.ns[c][i] = if agree { points.ns[c][i] } else { points.ng[c][i] };
+        }
+    }
+    for i in 0..n {
+        // Duff et al., Building an Orthonormal Basis, Revisited, JCGT 2017
+        let [x, y, z] = [points.ns[0][i], points.ns[1][i], points.ns[2][i]];
+        let sign = if z < 0.0 { -1.0 } else { 1.0 };
+        let a = -1.0 / (sign + z);
+        let b = x * y * a;
+        let any = [1.0 + sign * x * x * a, sign * b, -sign * x];
+        let across = [b, sign + y * y * a, -y];
+        if sides.anisotropic {
+            let along = points.tangent[0][i] * x + points.tangent[1][i] * y + points.tangent[2][i] * z;
+            let t =
+                [points.tangent[0][i] - x * along, points.tangent[1][i] - y * along, points.tangent[2][i] - z * along];
+            let squared = t[0] * t[0] + t[1] * t[1] + t[2] * t[2];
+            let ok = squared > 1e-20;
+            let scale = if ok { 1.0 / squared.sqrt() } else { 0.0 };
+            let t = [0, 1, 2].map(|c| if ok { t[c] * scale } else { any[c] });
+            for c in 0..3 {
+                work.t[c][i] = t[c];
+            }
+            work.b[0][i] = y * t[2] - z * t[1];
+            work.b[1][i] = z * t[0] - x * t[2];
+            work.b[2][i] = x * t[1] - y * t[0];
+        } else {
+            for c in 0..3 {
+                work.t[c][i] = any[c];
+                work.b[c][i] = across[c];
+            }
+        }
+    }
+    for i in 0..n {
+        let local = [dot(&work.t, &work.wo, i), dot(&work.b, &work.wo, i), dot(&points.ns, &work.wo, i)];
+        let local = shorten(local, work.length[i]);
+        for c in 0..3 {
+            work.wo_local[c][i] = local[c];
+        }
+    }
+}
+
+/// The unit vector of the same azimuth whose z is `length` times that of `v`: the cosine that a normal which was not
+/// brought to unit length gives.
+#[inline(always)]
+fn shorten(v: [f32; 3], length: f32) -> [f32; 3] {
+    let z = v[2] * length;
+    let before = v[0] * v[0] + v[1] * v[1];
+    let scale = if length == 1.0 { 1.0 } else { ((1.0 - z * z).max(0.0) / before.max(1e-20)).sqrt() };
+    // a vector along the normal has no azimuth
+    let x = if length != 1.0 && before <= 1e-20 { (1.0 - z * z).max(0.0).sqrt() } else { v[0] * scale };
+    [x, v[1] * scale, z]
+}
+
+/// Directions to a point and what arrives from it.
+#[inline(always)]
+fn point_body(points: &Points, work: &mut Work, at: [f32; 3], intensity: [f32; CHANNELS]) {
+    let n = points.n.min(BLOCK);
+    for i in 0..n {
+        let d = [at[0] - points.p[0][i], at[1] - points.p[1][i], at[2] - points.p[2][i]];
+        let squared = d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
+        let length = squared.sqrt();
+        let usable = length > 1e-18;
+        let inverse = if usable { 1.0 / length } else { 0.0 };
+        for c in 0..3 {
+            work.wi[c][i] = d[c] * inverse;
+        }
+        let falloff = if usable { 1.0 / (length * length) } else { 0.0 };
+        for c in 0..CHANNELS {
+            work.value[c][i] = intensity[c] * falloff;
+        }
+    }
+}
+
+/// The direction to the light in the frames of the points; what arrives from the wrong side counts as nothing.
+#[inline(always)]
+fn local_body(points: &Points, work: &mut Work) {
+    let n = points.n.min(BLOCK);
+    for i in 0..n {
+        let local = [dot(&work.t, &work.wi, i), dot(&work.b, &work.wi, i), dot(&points.ns, &work.wi, i)];
+        let agree = (dot(&points.ng, &work.wi, i) > 0.0) == (local[2] > 0.0);
+        let local = shorten(local, work.length[i]);
+        for c in 0..3 {
+            work.wi_local[c][i] = local[c];
+        }
+        let weight = if agree { local[2].abs() * work.alive[i] } else { 0.0 };
+        for c in 0..CHANNELS {
+            work.value[c][i] *= weight;
+        }
+    }
+}
+
+#[inline(always)]
+fn add_body(n: usize, work: &mut Work) {
+    let n = n.min(BLOCK);
+    for c in 0..CHANNELS {
+        let (sum, f, value) = (&mut work.sum[c], &work.f[c], &work.value[c]);
+        for i in 0..n {
+            sum[i] += f[i] * value[i];
+        }
+    }
+}
+
+/// The loops of one instruction set.
+pub(crate) struct Lanes {
+    orient: unsafe fn(&mut Points, &mut Work, [f32; 3], Sides),
+    point: unsafe fn(&Points, &mut Work, [f32; 3], [f32; CHANNELS]),
+    local: unsafe fn(&Points, &mut Work),
+    add: unsafe fn(usize, &mut Work),
+}
+
+macro_rules! lanes {
+    ($($feature:literal)?) => {{
+        $(#[target_feature(enable = $feature)])?
+        unsafe fn orient(points: &mut Points, work: &mut Work, eye: [f32; 3], sides: Sides) {
+            // constants fold into the common cases
+            match sides {
+                Sides { transmits: false, two_sided: true, renormalize: true, anisotropic: false } => {
+                    let sides = Sides { transmits: false, two_sided: true, renormalize: true, anisotropic: false };
+                    orient_body(points, work, eye, sides)
+                }
+                _ => orient_body(points, work, eye, sides),
+            }
+        }
+        $(#[target_feature(enable = $feature)])?
+        unsafe fn point(points: &Points, work: &mut Work, at: [f32; 3], intensity: [f32; CHANNELS]) {
+            point_body(points, work, at, intensity)
+        }
+        $(#[target_feature(enable = $feature)])?
+        unsafe fn local(points: &Points, work: &mut Work) {
+            local_body(points, work)
+        }
+        $(#[target_feature(enable = $feature)])?
+        unsafe fn add(n: usize, work: &mut Work) {
+            add_body(n, work)
+        }
+        Lanes { orient, point, local, add }
+    }};
+}
+
+impl Lanes {
+    /// The loops for an instruction set that this processor has.
+    ///
+    /// # Panics
+    /// If the processor lacks it.
+    pub fn for_isa(isa: Isa) -> Lanes {
+        assert!(isa.is_available(), "this processor lacks {}", isa.name());
+        match isa {
+            #[cfg(target_arch = "x86_64")]
+            Isa::Avx2 => lanes!("avx2,fma"),
+            #[cfg(target_arch = "x86_64")]
+            Isa::Avx512 => lanes!("avx512f,avx512vl,avx512bw,avx512dq,avx2,fma"),
+            _ => lanes!(),
+        }
+    }
+
+    pub fn orient(&self, points: &mut Points, work: &mut Work, eye: [f32; 3], sides: Sides) {
+        // SAFETY: `for_isa` checked the processor; the same holds below
+        unsafe { (self.orient)(points, work, eye, sides) }
+    }
+
+    pub fn point(&self, points: &Points, work: &mut Work, at: [f32; 3], intensity: [f32; CHANNELS]) {
+        // SAFETY: see `orient`
+        unsafe { (self.point)(points, work, at, intensity) }
+    }
+
+    pub fn local(&self, points: &Points, work: &mut Work) {
+        // SAFETY: see `orient`
+        unsafe { (self.local)(points, work) }
+    }
+
+    pub fn add(&self, n: usize, work: &mut Work) {
+        // SAFETY: see `orient`
+        unsafe { (self.add)(n, work) }
+    }
+}

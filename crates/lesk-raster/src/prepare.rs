@@ -1,0 +1,221 @@
+//! A scene as faces in world space, with the vertices that shading needs.
+
+use crate::error::{Error, Result};
+use crate::settings::{Interpolation, Mode, Settings};
+use lesk_geometry::polygons::{Vertices, cylinder_polygons, grid_polygons, rectangle_polygons, sphere_polygons};
+use lesk_geometry::{Geometry, Mesh, MeshData, PolygonMesh, Transform, World, WorldBuilder};
+use lesk_math::{Vec3, vec3};
+use lesk_scene::Scene;
+use std::f64::consts::TAU;
+use std::sync::Arc;
+
+/// All faces of a scene.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Prepared {
+    /// World positions, metres.
+    pub positions: Vec<Vec3<f32>>,
+    /// Unit normals, world space.
+    pub normals: Vec<Vec3<f32>>,
+    pub uvs: Vec<[f32; 2]>,
+    /// First corner of each face, and the end.
+    pub starts: Vec<u32>,
+    /// Vertices of the corners.
+    pub corners: Vec<u32>,
+    /// The object of each face.
+    pub objects: Vec<u32>,
+    /// First face of each object, and the end.
+    pub first_face: Vec<u32>,
+    /// Length of the diagonal of the box around everything, metres.
+    pub extent: f64,
+}
+
+/// Most corners of a scene: face numbers leave one bit free.
+const MAX_CORNERS: usize = 1 << 30;
+
+impl Prepared {
+    pub fn new(scene: &Scene, settings: &Settings) -> Result<Self> {
+        let mut out = Prepared { starts: vec![0], first_face: vec![0], ..Prepared::default() };
+        let mut made: Vec<(Geometry, Arc<Shaded>)> = Vec::new();
+        for number in 0..scene.world.instance_count() as u32 {
+            let geometry = scene.world.geometry_of(number);
+            let known = made.iter().find(|(g, _)| same(g, geometry)).map(|(_, s)| s.clone());
+            let shaded = match known {
+                Some(shaded) => shaded,
+                None => {
+                    let shaded = Arc::new(Shaded::new(geometry, settings).map_err(|e| {
+                        let name = &scene.objects[number as usize].name;
+                        let about = if name.is_empty() { "object".into() } else { format!("object `{name}`") };
+                        Error::new(format!("{about}: {e}"))
+                    })?);
+                    made.push((geometry.clone(), shaded.clone()));
+                    shaded
+                }
+            };
+            out.add(&shaded, scene.world.place(number), number)?;
+        }
+        let [mut low, mut high] = [[f32::INFINITY; 3], [f32::NEG_INFINITY; 3]];
+        for p in &out.positions {
+            for (k, x) in p.to_array().into_iter().enumerate() {
+                (low[k], high[k]) = (low[k].min(x), high[k].max(x));
+            }
+        }
+        let size = (0..3).map(|k| f64::from(high[k] - low[k]).powi(2)).sum::<f64>().sqrt();
+        out.extent = if size.is_finite() { size } else { 0.0 };
+        Ok(out)
+    }
+
+    fn add(&mut self, shaded: &Shaded, place: &Transform, object: u32) -> Result<()> {
+        if self.corners.len() + shaded.vertices.corners.len() > MAX_CORNERS {
+            return Err(Error::new(format!("scene has more than {MAX_CORNERS} corners of faces")));
+        }
+        let base = self.positions.len() as u32;
+        let wide = |v: Vec3<f32>| v.map(f64::from);
+        self.positions.extend(shaded.vertices.positions.iter().map(|&p| place.point(p)));
+        let normal = |n: &Vec3<f32>| place.normal_f64(wide(*n)).normalize().map(|x| x as f32);
+        self.normals.extend(shaded.vertices.normals.iter().map(normal));
+        match shaded.vertices.uvs.is_empty() {
+            true => self.uvs.resize(self.positions.len(), [0.0; 2]),
+            false => self.uvs.extend(&shaded.vertices.uvs),
+        }
+        let mirrored = place.determinant() < 0.0;
+        let mut start = 0;
+        for &size in &shaded.sizes {
+            let face = &shaded.vertices.corners[start..start + size as usize];
+            start += size as usize;
+            // the first corner stays the first
+            let (first, rest) = face.split_first().expect("a face has three corners");
+            self.corners.push(base + first);
+            match mirrored {
+                true => self.corners.extend(rest.iter().rev().map(|v| base + v)),
+                false => self.corners.extend(rest.iter().map(|v| base + v)),
+            }
+            self.starts.push(self.corners.len() as u32);
+            self.objects.push(object);
+        }
+        self.first_face.push(self.objects.len() as u32);
+        Ok(())
+    }
+
+    pub fn face_count(&self) -> usize {
+        self.objects.len()
+    }
+
+    #[inline]
+    pub fn face(&self, index: usize) -> &[u32] {
+        &self.corners[self.starts[index] as usize..self.starts[index + 1] as usize]
+    }
+
+    /// The unit normal of a face (Newell's method), f64; zero without an area.
+    pub fn face_normal(&self, index: usize) -> Vec3<f64> {
+        let face = self.face(index);
+        let at = |k: usize| self.positions[face[k] as usize].map(f64::from);
+        let origin = at(0);
+        let term = |k: usize| (at(k) - origin).cross(at(k + 1) - origin);
+        let sum = (1..face.len() - 1).fold(Vec3::<f64>::ZERO, |sum, k| sum + term(k));
+        let length = sum.length();
+        if length > 0.0 { sum * (1.0 / length) } else { Vec3::ZERO }
+    }
+
+    /// dp/du of a face by its first three corners; zero where the texture coordinates give none.
+    pub fn tangent(&self, index: usize) -> Vec3<f32> {
+        let face = self.face(index);
+        let [a, b, c] = [face[0], face[1], face[2]].map(|v| v as usize);
+        let wide = |v: usize| self.positions[v].map(f64::from);
+        let uv = |v: usize| self.uvs[v].map(f64::from);
+        let (e1, e2) = (wide(b) - wide(a), wide(c) - wide(a));
+        let [du1, dv1] = [0, 1].map(|k| uv(b)[k] - uv(a)[k]);
+        let [du2, dv2] = [0, 1].map(|k| uv(c)[k] - uv(a)[k]);
+        let t = ((e1 * dv2 - e2 * dv1) * (1.0 / (du1 * dv2 - dv1 * du2))).map(|x| x as f32);
+        if t.length().is_finite() { t } else { Vec3::ZERO }
+    }
+
+    /// The faces as a world for rays, one mesh per object, in the order of the scene's objects: what the path tracer needs
+    /// to see the same surfaces with the same normals.
+    pub fn world(&self) -> Result<World> {
+        let mut builder = WorldBuilder::new();
+        for object in 0..self.first_face.len() - 1 {
+            let mut data = MeshData::default();
+            let faces = self.first_face[object] as usize..self.first_face[object + 1] as usize;
+            let mut polygons = Vec::new();
+            let mut local: std::collections::HashMap<u32, u32> = std::collections::HashMap::new();
+            for face in faces {
+                polygons.clear();
+                for &v in self.face(face) {
+                    let next = data.positions.len() as u32;
+                    let vertex = *local.entry(v).or_insert(next);
+                    polygons.push(vertex);
+                    if vertex == next {
+                        data.positions.push(self.positions[v as usize]);
+                        data.normals.push(self.normals[v as usize]);
+                        data.uvs.push(self.uvs[v as usize]);
+                    }
+                }
+                lesk_geometry::polygons::triangulate(&data.positions, &polygons, &mut data.triangles);
+            }
+            let mesh = Mesh::new(data).map_err(|e| Error::new(e.to_string()))?.0;
+            let number = builder.geometry(Geometry::Mesh(Arc::new(mesh)));
+            builder.instance(number, Transform::IDENTITY).map_err(|e| Error::new(e.to_string()))?;
+        }
+        builder.build().map_err(|e| Error::new(e.to_string()))
+    }
+}
+
+/// Whether two instances show the same geometry.
+fn same(a: &Geometry, b: &Geometry) -> bool {
+    match (a, b) {
+        (Geometry::Mesh(a), Geometry::Mesh(b)) => Arc::ptr_eq(a, b),
+        (Geometry::Cylinder { capped: a }, Geometry::Cylinder { capped: b }) => a == b,
+        _ => std::mem::discriminant(a) == std::mem::discriminant(b),
+    }
+}
+
+/// A geometry as faces with split vertices, local space.
+struct Shaded {
+    vertices: Vertices,
+    sizes: Vec<u32>,
+}
+
+impl Shaded {
+    fn new(geometry: &Geometry, settings: &Settings) -> std::result::Result<Self, lesk_geometry::Error> {
+        let mut polygons = polygons_of(geometry, settings.tessellation);
+        polygons.turn_to_normals();
+        let shading = polygons.shading(settings.normals, settings.edges)?;
+        let mut vertices = polygons.vertices(&shading);
+        flip_v_of_sphere(geometry, &mut vertices);
+        let cut = settings.interpolation == Interpolation::Barycentric && settings.shading != Mode::Flat;
+        if !cut {
+            return Ok(Shaded { vertices, sizes: polygons.data().sizes.clone() });
+        }
+        let mut triangles = Vec::new();
+        for face in 0..polygons.face_count() {
+            let corners = &vertices.corners[polygons.face(face)];
+            lesk_geometry::polygons::triangulate(&vertices.positions, corners, &mut triangles);
+        }
+        vertices.corners = triangles.as_flattened().to_vec();
+        Ok(Shaded { vertices, sizes: vec![3; triangles.len()] })
+    }
+}
+
+/// The faces of a geometry; curved shapes get `around` faces around them.
+fn polygons_of(geometry: &Geometry, around: u32) -> PolygonMesh {
+    let half = (around / 2).max(2);
+    match geometry {
+        Geometry::Mesh(mesh) => match mesh.polygons() {
+            Some(polygons) => (**polygons).clone(),
+            None => PolygonMesh::from_triangles(mesh),
+        },
+        Geometry::Rectangle => rectangle_polygons(1, 1),
+        Geometry::Sphere => sphere_polygons(around, half),
+        Geometry::Disk => grid_polygons((around / 8).max(1), around, |r, turn| {
+            (vec3(r * (TAU * turn).cos(), r * (TAU * turn).sin(), 0.0), Vec3::Z)
+        }),
+        Geometry::Cylinder { capped } => cylinder_polygons(around, (around / 8).max(1), *capped),
+    }
+}
+
+/// The exact sphere counts v from its upper pole, the mesh from the lower one.
+fn flip_v_of_sphere(geometry: &Geometry, vertices: &mut Vertices) {
+    if matches!(geometry, Geometry::Sphere) {
+        vertices.uvs.iter_mut().for_each(|uv| uv[1] = 1.0 - uv[1]);
+    }
+}

@@ -1,0 +1,203 @@
+"""Flat, Gouraud and Phong shading side by side with the direct light that they approximate."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import numpy.typing as npt
+
+from lesk import image
+from lesk._raster import NAMES, Shading, shade
+from lesk._render import Render, render
+from lesk.errors import ParameterError
+from lesk.scene import Scene, load, parse
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+Array = npt.NDArray[np.float64]
+MODES = ("flat", "gouraud", "phong")
+CURVES = {"flat": "#0072b2", "gouraud": "#d55e00", "phong": "#009e73"}
+TITLES = {"flat": "flat", "gouraud": "Gouraud", "phong": "Phong"}
+TESSELLATIONS = (6, 8, 12, 16, 24, 32, 48, 64, 96, 128)
+
+
+@dataclass(frozen=True)
+class Comparison:
+    """What `compare_shading` found."""
+
+    shaded: dict[str, Shading]
+    """One picture per mode."""
+    reference: Render
+    """Direct light of the exact surfaces, path traced."""
+    errors: dict[str, float]
+    """Root of the mean squared difference to the reference over its mean luminance, per mode."""
+    curve: list[dict[str, Any]]
+    """`tessellation`, `faces` and `errors` per mode; empty where the scene has no curved shape."""
+
+    def facts(self) -> dict[str, Any]:
+        """Give the numbers."""
+        modes = {
+            mode: {
+                **one.counts,
+                "milliseconds": float(np.median(one.milliseconds)),
+                "error": self.errors[mode],
+                "warnings": one.warnings,
+            }
+            for mode, one in self.shaded.items()
+        }
+        return {"modes": modes, "reference_seconds": self.reference.seconds, "curve": self.curve}
+
+    def figure(self) -> Figure:
+        """Draw pictures, differences, faces, normals and the curve of errors."""
+        return _figure(self)
+
+
+def compare_shading(
+    scene: str | Path | Scene,
+    *,
+    tessellation: int = 24,
+    spp: int = 64,
+    frames: int = 5,
+    normals: str = "given",
+    crease_angle_deg: float | None = None,
+    curve: bool = True,
+) -> Comparison:
+    """Compare the three modes of shading with the direct light of the exact surfaces.
+
+    Parameters
+    ----------
+    scene : path-like, str or Scene
+        As for `lesk.shade`.
+    tessellation : int
+        Faces around a sphere, disk or cylinder, 3 to 4096.
+    spp : int
+        Samples per pixel of the reference, which is path traced to depth 1 with hard shadows like those of the modes.
+    frames : int
+        How often to draw, for the median of their times.
+    normals : str
+        Vertex normals, as for `lesk.shade`.
+    crease_angle_deg : float, optional
+        As for `lesk.shade`.
+    curve : bool
+        Whether to measure errors for 6 to 128 faces around curved shapes.
+
+    Returns
+    -------
+    Comparison
+    """
+    if normals not in NAMES["normals"]:
+        raise ParameterError(f"there is no rule `{normals}` for normals, but {', '.join(NAMES['normals'])} are accepted")
+    if not isinstance(scene, Scene):
+        scene = parse(scene) if isinstance(scene, str) and "\n" in scene else load(scene)
+    options: dict[str, Any] = {"normals": normals, "crease_angle_deg": crease_angle_deg, "shadows": True}
+
+    def picture(mode: str, around: int, *, times: int = 1) -> Shading:
+        return shade(scene, shading=mode, tessellation=around, aovs=times > 1, frames=times, **options)
+
+    reference = render(scene, spp=spp, max_depth=1)
+    truth = reference.rgb.astype(float)
+    shaded = {mode: picture(mode, tessellation, times=max(frames, 2)) for mode in MODES}
+    errors = {mode: _error(one.rgb, truth) for mode, one in shaded.items()}
+    points = []
+    for around in TESSELLATIONS if curve else ():
+        several = {mode: picture(mode, around) for mode in MODES}
+        faces = several["flat"].counts["faces"]
+        own = {mode: _error(one.rgb, truth) for mode, one in several.items()}
+        points.append({"tessellation": around, "faces": faces, "errors": own})
+    if len({p["faces"] for p in points}) == 1:
+        points = []
+    return Comparison(shaded, reference, errors, points)
+
+
+def _error(picture: npt.NDArray[np.float32], truth: Array) -> float:
+    weights = np.array([0.2126, 0.7152, 0.0722])
+    mean = float((truth @ weights).mean())
+    return float(np.sqrt((((picture - truth) @ weights) ** 2).mean()) / mean) if mean > 0 else 0.0
+
+
+def _figure(found: Comparison) -> Figure:
+    from matplotlib.figure import Figure
+
+    ev100 = found.reference.ev100 or 0.0
+    columns = [*MODES, "reference"]
+    height, width = found.reference.rgb.shape[:2]
+    figure = Figure(figsize=(13, 2.0 + 3 * 3.1 * min(1.2, height / width)), dpi=110, layout="constrained")
+    axes = figure.subplots(3, 4)
+    shown = {mode: image.develop(one.rgb, ev100) for mode, one in found.shaded.items()}
+    shown["reference"] = image.develop(found.reference.rgb, ev100)
+    truth = found.reference.rgb.astype(float)
+    white = float(np.quantile(truth.max(axis=2), 0.99)) or 1.0
+    for place, name in zip(axes[0], columns, strict=True):
+        place.imshow(np.clip(shown[name], 0, 1))
+        place.set_title(_title(found, name), fontsize=10)
+    mapped = None
+    for place, mode in zip(axes[1], MODES, strict=False):
+        difference = (found.shaded[mode].rgb - truth).mean(axis=2) / white
+        mapped = place.imshow(difference, cmap="RdBu_r", vmin=-0.25, vmax=0.25)
+        place.set_title(f"{TITLES[mode]} - reference, error {100 * found.errors[mode]:.2g} %", fontsize=10)
+    if mapped is not None:
+        figure.colorbar(mapped, ax=axes[1, 2], shrink=0.85, label="share of white")
+    _normals(axes[1, 3], found.shaded["phong"], "normals of pixels (Phong)")
+    _faces(axes[2, 0], found.shaded["flat"], np.clip(shown["flat"], 0, 1))
+    _normals(axes[2, 1], found.shaded["flat"], "normals of faces (flat)")
+    for place in (*axes[0], *axes[1], *axes[2, :2]):
+        place.set_xticks([])
+        place.set_yticks([])
+    _curve(figure, axes, found.curve)
+    return figure
+
+
+def _title(found: Comparison, name: str) -> str:
+    if name == "reference":
+        return f"reference: path traced, depth 1\n{found.reference.seconds:.1f} s"
+    one = found.shaded[name]
+    where = {"flat": "faces", "gouraud": "vertices", "phong": "pixels"}[name]
+    milliseconds = float(np.median(one.milliseconds))
+    return f"{TITLES[name]}: {milliseconds:.1f} ms\nmodel evaluated at {one.counts['evaluations']} {where}"
+
+
+def _normals(place: Axes, one: Shading, title: str) -> None:
+    layers = one.layers
+    normals = np.stack([layers[f"normal.{c}"] for c in "XYZ"], axis=-1)
+    length = np.linalg.norm(normals, axis=2, keepdims=True)
+    place.imshow(np.where(length > 0, 0.5 + 0.5 * normals / np.maximum(length, 1e-9), 1.0))
+    place.set_title(title, fontsize=10)
+
+
+def _faces(place: Axes, one: Shading, picture: npt.NDArray[Any]) -> None:
+    """Lines where neighbouring pixels show different faces."""
+    faces = one.faces
+    assert faces is not None
+    edge = np.zeros(faces.shape, dtype=bool)
+    edge[:, 1:] |= faces[:, 1:] != faces[:, :-1]
+    edge[1:, :] |= faces[1:, :] != faces[:-1, :]
+    overlay = 0.55 * picture + 0.45
+    overlay[edge] = (0.1, 0.1, 0.12)
+    place.imshow(overlay)
+    place.set_title(f"{one.counts['faces']} faces", fontsize=10)
+
+
+def _curve(figure: Figure, axes: npt.NDArray[Any], curve: Sequence[dict[str, Any]]) -> None:
+    grid = axes[2, 2].get_gridspec()
+    axes[2, 2].remove()
+    axes[2, 3].remove()
+    place = figure.add_subplot(grid[2, 2:])
+    if not curve:
+        place.axis("off")
+        place.text(0.5, 0.5, "no curved shape to tessellate:\nthe faces are those of the meshes", ha="center", va="center")
+        return
+    faces = [p["faces"] for p in curve]
+    for mode in MODES:
+        own = [100 * p["errors"][mode] for p in curve]
+        place.loglog(faces, own, "o-", color=CURVES[mode], markersize=3.5, label=TITLES[mode])
+    place.set_xlabel("faces of the scene")
+    place.set_ylabel("error, % of the mean luminance")
+    place.grid(visible=True, which="major", color="#d0d7de", linewidth=0.6)
+    place.legend(frameon=False)
+    place.set_title("error against number of faces", fontsize=10)

@@ -1,0 +1,222 @@
+"""Shading by a scanline rasteriser."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from lesk import _lesk
+from lesk._render import Render
+from lesk.errors import ParameterError
+from lesk.scene import Scene, load, parse
+
+NAMES: Mapping[str, Sequence[str]] = dict(_lesk.shading_names())
+"""The names that `shade` accepts for `shading`, `interpolation`, `correction`, `normals`, `flat_point` and `space`; the
+default first."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Classic:
+    """The classic local model: I = I_A + sum of I_D + I_S over the lights, without units.
+
+    I_A = C_A C_D k_A, I_D = C_L C_D k_D cos(alpha), I_S = C_L C_S k_S cos(beta)^h. A light of illuminance E
+    (perpendicular to its direction) counts as C_L = E/pi: then k_D C_D is the albedo of a Lambert surface.
+    """
+
+    ambient: Sequence[float] = (1.0, 1.0, 1.0)
+    """C_A, colour of the ambient light."""
+    diffuse: Sequence[float] = (1.0, 1.0, 1.0)
+    """C_D, colour of the surface."""
+    specular: Sequence[float] = (1.0, 1.0, 1.0)
+    """C_S, colour of the highlight."""
+    ka: float = 0.1
+    kd: float = 0.5
+    ks: float = 0.4
+    shininess: float = 50.0
+    """h, the exponent of the highlight."""
+    highlight: str = "phong"
+    """`phong`: beta lies between viewer and mirrored light; `blinn`: between normal and half vector."""
+    lights: Sequence[tuple[Sequence[float], Sequence[float]]] = field(default_factory=tuple)
+    """Directions towards lights, and their colours C_L; without any, the lights of the scene count."""
+
+
+class Shading(Render):
+    """A rasterised picture, and what it took."""
+
+    def __init__(self, picture: _lesk.Picture, facts: tuple[Any, ...]) -> None:
+        super().__init__(picture)
+        counts, times, warnings, faces = facts
+        self.counts: dict[str, int] = dict(counts)
+        """`faces` of the scene; `drawn`: faces put into bands of 32 rows; `vertices`; `samples` that show a face;
+        `evaluations`: points at which light was computed."""
+        self.milliseconds: list[float] = times
+        """Time of each frame, ms, without reading and preparing the scene."""
+        self.warnings: list[str] = warnings
+        """What to know about the picture, one sentence each."""
+        self.faces: npt.NDArray[np.uint32] | None = faces
+        """With `aovs`, the face that each sample shows, from 1, 0 for none; shape (height, width) times
+        `supersampling`."""
+
+
+def shade(
+    scene: str | Path | Scene,
+    *,
+    shading: str = "phong",
+    interpolation: str = "bilinear",
+    correction: str = "perspective",
+    normals: str = "given",
+    crease_angle_deg: float | None = None,
+    tessellation: int = 64,
+    renormalize: bool = True,
+    supersampling: int = 1,
+    quadrature: int = 16,
+    shadows: bool = False,
+    cull: bool = False,
+    flat_point: str = "centroid",
+    space: str = "linear",
+    classic: Classic | Mapping[str, Any] | None = None,
+    aovs: bool = False,
+    threads: int | None = None,
+    frames: int = 1,
+) -> Shading:
+    """Shade a scene with a scanline rasteriser: direct light of every material, face by face.
+
+    Parameters
+    ----------
+    scene : path-like, str or Scene
+        A scene file; text of one, if it has line breaks; or a scene that was read before.
+    shading : str
+        `flat`: once per face; `gouraud`: at vertices, light is interpolated; `phong`: at pixels, normals are.
+    interpolation : str
+        `bilinear`: along edges, then along the span of a scanline; `barycentric`: within triangles.
+    correction : str
+        `perspective`: linear on the surface; `screen`: linear on the screen.
+    normals : str
+        Vertex normals: `given` by the surface or file, else angle-weighted; `analytic`, of surfaces that know their
+        own; `mean`, `area`, `angle`, `max1999`: of the faces around.
+    crease_angle_deg : float, optional
+        Edges with a larger angle between their faces are real, 0 to 180 degrees; without it, as the mesh stores them.
+    tessellation : int
+        Faces around a sphere, disk or cylinder, 3 to 4096.
+    renormalize : bool
+        Whether interpolated normals are brought to unit length.
+    supersampling : int
+        Samples along each side of a pixel, 1 to 16.
+    quadrature : int
+        Points per light that has an area or fills the sky, 1 to 4096.
+    shadows : bool
+        Whether rays look for obstacles between a point and its lights.
+    cull : bool
+        Whether faces that show their back are left out.
+    flat_point : str
+        The point of a face in flat shading: `centroid` or `first` corner. Its normal is that of the face.
+    space : str
+        `linear`: sums of light are light; `gamma`: they are codes of a screen, wrong on purpose.
+    classic : Classic or dict, optional
+        The classic local model for all objects, instead of their materials.
+    aovs : bool
+        Whether to keep albedo, normal, depth and ids.
+    threads : int, optional
+        Threads; without it, one per core. The picture is the same for any number.
+    frames : int
+        How often to draw, for their times.
+
+    Returns
+    -------
+    Shading
+        The picture, with the layers of `lesk.render`; `counts`, `milliseconds` and `warnings`.
+
+    Raises
+    ------
+    SceneError, ParameterError
+        What was given and what is accepted.
+
+    References
+    ----------
+    gouraud1971, phong1975
+    """
+    chosen = wishes(
+        shading=shading,
+        interpolation=interpolation,
+        correction=correction,
+        normals=normals,
+        crease_angle_deg=crease_angle_deg,
+        tessellation=tessellation,
+        renormalize=renormalize,
+        supersampling=supersampling,
+        quadrature=quadrature,
+        shadows=shadows,
+        cull=cull,
+        flat_point=flat_point,
+        space=space,
+        classic=_classic(classic),
+        aovs=aovs,
+        threads=threads,
+        frames=frames,
+    )
+    if not isinstance(scene, Scene):
+        scene = parse(scene) if isinstance(scene, str) and "\n" in scene else load(scene)
+    return Shading(*_lesk.shade(scene, chosen))
+
+
+_DEFAULTS: dict[str, Any] = {
+    "crease_angle_deg": None,
+    "tessellation": 64,
+    "renormalize": True,
+    "supersampling": 1,
+    "quadrature": 16,
+    "shadows": False,
+    "cull": False,
+    "classic": None,
+    "aovs": False,
+    "threads": None,
+    "frames": 1,
+}
+
+
+def wishes(**chosen: Any) -> dict[str, Any]:
+    """All settings for the core: those chosen, else the defaults."""
+    out = {**{name: known[0] for name, known in NAMES.items()}, **_DEFAULTS, **chosen}
+    for name in ("threads", "frames"):
+        if out[name] is not None and out[name] < 1:
+            raise ParameterError(f"`{name}` is {out[name]}, but 1 or more is accepted")
+    for name in ("tessellation", "supersampling", "quadrature"):
+        if not 0 < out[name] < 2**31:
+            raise ParameterError(f"`{name}` is {out[name]}, but a number above 0 is accepted")
+    return out
+
+
+def _classic(model: Classic | Mapping[str, Any] | None) -> dict[str, Any] | None:
+    if model is None:
+        return None
+    if not isinstance(model, Classic):
+        known = Classic.__dataclass_fields__
+        for name in model:
+            if name not in known:
+                raise ParameterError(f"the classic model has no `{name}`, but {', '.join(known)} are accepted")
+        model = Classic(**model)
+    if model.highlight not in ("phong", "blinn"):
+        raise ParameterError(f"`highlight` is `{model.highlight}`, but phong, blinn are accepted")
+    return {
+        "ambient": _three("ambient", model.ambient),
+        "diffuse": _three("diffuse", model.diffuse),
+        "specular": _three("specular", model.specular),
+        "ka": float(model.ka),
+        "kd": float(model.kd),
+        "ks": float(model.ks),
+        "shininess": float(model.shininess),
+        "blinn": model.highlight == "blinn",
+        "lights": [(_three("direction", d), _three("light", c)) for d, c in model.lights],
+    }
+
+
+def _three(name: str, values: Sequence[float] | float) -> list[float]:
+    numbers = [float(values)] * 3 if isinstance(values, int | float) else [float(v) for v in values]
+    if len(numbers) != 3:
+        raise ParameterError(f"`{name}` has {len(numbers)} numbers, but 3 are accepted")
+    return numbers
