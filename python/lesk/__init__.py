@@ -14,6 +14,7 @@ pictures come from that one definition.
 - `lesk.figures`: the figures of a lecture on light and shading.
 - `lesk.f0`: reflectance of common substances at normal incidence.
 - `lesk.check`: runs the claims of a model.
+- `lesk.light`: luminaires from IES and EULUMDAT files.
 - `lesk.measure`, `lesk.lux`: illuminance, luminance and glare at the sensors of a scene, with standard errors.
 - `lesk.shade`, `lesk.mesh`: flat, Gouraud and Phong shading by a rasteriser; what a mesh file holds.
 - `lesk.render`, `lesk.scene`, `lesk.image`: pictures in cd/m², from a scene file to EXR, HDR and PNG.
@@ -31,6 +32,7 @@ from lesk.errors import (
     FileError,
     ImageError,
     LeskError,
+    LightError,
     MeasureInterrupted,
     ParameterError,
     RenderInterrupted,
@@ -38,7 +40,7 @@ from lesk.errors import (
 )
 
 if TYPE_CHECKING:
-    from lesk import f0, figures, image, mesh, models, plot, scene, terms
+    from lesk import f0, figures, image, light, mesh, models, plot, scene, terms
     from lesk._check import CheckReport, check
     from lesk._compare_shading import Comparison, compare_shading
     from lesk._lesk import __version__
@@ -48,7 +50,7 @@ if TYPE_CHECKING:
     from lesk._raster import Classic, Shading, shade
     from lesk._render import Progress, Render, render
 
-_MODULES = ("f0", "figures", "image", "mesh", "models", "plot", "scene", "terms")
+_MODULES = ("f0", "figures", "image", "light", "mesh", "models", "plot", "scene", "terms")
 _NAMES = {
     "CheckReport": "_check",
     "Classic": "_raster",
@@ -81,6 +83,7 @@ __all__ = [
     "FileError",
     "ImageError",
     "LeskError",
+    "LightError",
     "LuxReport",
     "MeasureInterrupted",
     "MeasureProgress",
@@ -100,6 +103,7 @@ __all__ = [
     "f0",
     "figures",
     "image",
+    "light",
     "lux",
     "measure",
     "mesh",

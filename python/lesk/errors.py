@@ -26,6 +26,10 @@ class ImageError(LeskError, ValueError):
     """An image that is damaged, too large or of another kind than asked for."""
 
 
+class LightError(LeskError, ValueError):
+    """A luminaire file that cannot be understood, or a light that cannot shine; the text names line and field."""
+
+
 class FileError(LeskError, OSError):
     """A file that cannot be read or written; a previous file of its name is unchanged."""
 

@@ -13,7 +13,8 @@
 //! # Ok::<(), lesk_light::LightError>(())
 //! ```
 //!
-//! - [`Light`]: [`Point`], [`Spot`], [`Directional`], [`Area`], [`Environment`], [`Sky`].
+//! - [`Light`]: [`Point`], [`Spot`], [`Projector`], [`Directional`], [`Area`], [`Luminaire`], [`Environment`], [`Sky`].
+//! - [`CieSky`], [`SunPosition`]: the sky and the sun by place and time.
 //! - [`Lights`]: all lights of a scene; chooses one for a [`Receiver`], near and bright ones more often.
 //! - [`LightTree`]: that choice; its cost grows with the logarithm of the number of lights.
 //! - [`Spectrum`]: lumens of a watt, by the name of a spectrum.
@@ -27,34 +28,42 @@
 //! [`Lights::emitted`], and its weight against the light's own sampling uses [`Lights::pdf_surface`]; one that leaves the
 //! scene adds [`Lights::escaped`].
 //!
-//! It traces no ray and knows no material; there are no emission textures, no light through media, no sun disk.
+//! It traces no ray and knows no material; there are no emission textures and no light through media.
 
 mod area;
 mod bounds;
+mod cie_sky;
 mod directional;
 mod environment;
 mod error;
 mod light;
 mod lights;
+mod luminaire;
 pub mod photometry;
 mod point;
+mod projector;
 mod sample;
 mod sky;
 mod spectrum;
 mod spot;
+mod sun;
 mod tree;
 mod triangle;
 
 pub use area::Area;
 pub use bounds::LightBounds;
+pub use cie_sky::CieSky;
 pub use directional::Directional;
 pub use environment::{Environment, Up, rec709};
 pub use error::LightError;
 pub use light::Light;
 pub use lights::Lights;
+pub use luminaire::{Luminaire, Mounting};
 pub use point::Point;
+pub use projector::Projector;
 pub use sample::{LightSample, Receiver, Target};
 pub use sky::Sky;
 pub use spectrum::Spectrum;
 pub use spot::Spot;
+pub use sun::{Moment, SUN_DIAMETER, SunPosition};
 pub use tree::{LightTree, MAX_LIGHTS};

@@ -2,7 +2,7 @@
 
 use crate::bounds::LightBounds;
 use crate::sample::{LightSample, Receiver};
-use crate::{Area, Directional, Environment, Point, Sky, Spot};
+use crate::{Area, Directional, Environment, Luminaire, Point, Projector, Sky, Spot};
 use lesk_geometry::Surface;
 use lesk_math::{Color, Vec3};
 
@@ -13,10 +13,14 @@ pub enum Light {
     Point(Point),
     /// A point that shines into a cone.
     Spot(Spot),
-    /// Parallel light.
+    /// A picture thrown by a lens.
+    Projector(Projector),
+    /// Parallel light, or that of a disk in the sky.
     Directional(Directional),
     /// A surface.
     Area(Area),
+    /// A luminaire from a photometric file.
+    Luminaire(Luminaire),
     /// A picture of all directions.
     Environment(Environment),
     /// The same luminance from all directions.
@@ -31,7 +35,12 @@ impl Light {
 
     /// Whether it comes from one direction only, at any receiver.
     pub fn is_delta(&self) -> bool {
-        matches!(self, Light::Point(_) | Light::Spot(_) | Light::Directional(_))
+        match self {
+            Light::Point(_) | Light::Spot(_) | Light::Projector(_) => true,
+            Light::Directional(light) => light.is_delta(),
+            Light::Luminaire(light) => light.is_delta(),
+            Light::Area(_) | Light::Environment(_) | Light::Sky(_) => false,
+        }
     }
 
     /// Luminous flux in lm; of distant light, what enters a sphere of the given radius in metres.
@@ -39,7 +48,9 @@ impl Light {
         match self {
             Light::Point(light) => light.flux(),
             Light::Spot(light) => light.flux(),
+            Light::Projector(light) => light.flux(),
             Light::Area(light) => light.flux(),
+            Light::Luminaire(light) => light.flux(),
             Light::Directional(light) => light.flux(scene_radius),
             Light::Environment(light) => light.flux(scene_radius),
             Light::Sky(light) => light.flux(scene_radius),
@@ -52,18 +63,21 @@ impl Light {
         match self {
             Light::Point(light) => light.sample(at),
             Light::Spot(light) => light.sample(at),
-            Light::Directional(light) => light.sample(at),
+            Light::Projector(light) => light.sample(at),
+            Light::Directional(light) => light.sample(u),
             Light::Area(light) => light.sample(part, at, u),
+            Light::Luminaire(light) => light.sample(at, u),
             Light::Environment(light) => light.sample(u),
             Light::Sky(light) => light.sample(at, u),
         }
     }
 
     /// Density in 1/sr with which [`sample`](Self::sample) finds the surface that a ray from the receiver hit; 0 for
-    /// all but area lights.
+    /// all but area lights and luminaires.
     pub fn pdf_surface(&self, at: &Receiver, hit: &Surface) -> f32 {
         match self {
             Light::Area(light) => light.pdf(at, hit),
+            Light::Luminaire(light) => light.pdf(at, hit),
             _ => 0.0,
         }
     }
@@ -73,6 +87,7 @@ impl Light {
     pub fn pdf_direction(&self, at: &Receiver, wi: Vec3<f32>) -> f32 {
         match self {
             Light::Environment(light) => light.pdf(wi),
+            Light::Directional(light) => light.pdf(wi),
             Light::Sky(light) => light.pdf(at, wi),
             _ => 0.0,
         }
@@ -82,6 +97,7 @@ impl Light {
     pub fn emitted(&self, surface: &Surface, w: Vec3<f32>) -> Color<f32> {
         match self {
             Light::Area(light) => light.radiance(surface.ng, w),
+            Light::Luminaire(light) => light.radiance(surface.ng, w),
             _ => Color::BLACK,
         }
     }
@@ -91,6 +107,7 @@ impl Light {
         match self {
             Light::Environment(light) => light.radiance(wi),
             Light::Sky(light) => light.radiance(wi),
+            Light::Directional(light) => light.radiance(wi),
             _ => Color::BLACK,
         }
     }
@@ -100,7 +117,9 @@ impl Light {
         match self {
             Light::Point(light) => vec![light.bounds()],
             Light::Spot(light) => vec![light.bounds()],
+            Light::Projector(light) => vec![light.bounds()],
             Light::Area(light) => light.bounds(),
+            Light::Luminaire(light) => vec![light.bounds()],
             Light::Directional(_) | Light::Environment(_) | Light::Sky(_) => vec![],
         }
     }

@@ -109,9 +109,10 @@ impl Lights {
     /// The density of [`sample`](Self::sample) in 1/sr for the surface of area light `light` that a ray from the
     /// receiver hit.
     pub fn pdf_surface(&self, at: &Receiver, light: u32, hit: &Surface) -> f32 {
-        let Some(Light::Area(area)) = self.list.get(light as usize) else { return 0.0 };
-        let pmf = self.pmf(at, light, area.part_of(hit.prim));
-        if pmf > 0.0 { pmf * area.pdf(at, hit) } else { 0.0 }
+        let Some(known) = self.list.get(light as usize) else { return 0.0 };
+        let part = if let Light::Area(area) = known { area.part_of(hit.prim) } else { 0 };
+        let pmf = self.pmf(at, light, part);
+        if pmf > 0.0 { pmf * known.pdf_surface(at, hit) } else { 0.0 }
     }
 
     /// Luminance in cd/m² that the surface of light `light` sends into direction `w`.

@@ -8,6 +8,7 @@ use pyo3::prelude::*;
 pyo3::import_exception!(lesk.errors, CheckpointError);
 pyo3::import_exception!(lesk.errors, FileError);
 pyo3::import_exception!(lesk.errors, ImageError);
+pyo3::import_exception!(lesk.errors, LightError);
 pyo3::import_exception!(lesk.errors, ParameterError);
 pyo3::import_exception!(lesk.errors, SceneError);
 
@@ -23,6 +24,11 @@ pub fn image(error: ImageFailure) -> PyErr {
         ImageFailure::Read { .. } | ImageFailure::Write { .. } => FileError::new_err(text),
         _ => ImageError::new_err(text),
     }
+}
+
+/// A light or a luminaire file that is not accepted.
+pub fn light(error: lesk_light::LightError) -> PyErr {
+    LightError::new_err(error.to_string())
 }
 
 /// All problems of a scene.

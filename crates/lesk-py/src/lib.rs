@@ -5,6 +5,7 @@ mod checks;
 mod draws;
 mod errors;
 mod image;
+mod light;
 mod measure;
 mod meshes;
 mod models;
@@ -27,6 +28,8 @@ mod _lesk {
     use crate::draws::{draw, sobol};
     #[pymodule_export]
     use crate::image::{develop, false_color, meter, read_image, read_planes, tone_mappers, write_image, write_planes};
+    #[pymodule_export]
+    use crate::light::{PyPhotometry, ugr_rooms};
     #[pymodule_export]
     use crate::measure::{PyMeasured, measure_scene, measure_tasks};
     #[pymodule_export]

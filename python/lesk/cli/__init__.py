@@ -11,6 +11,7 @@ COMMANDS = {
     "plot": "Draw a model: polar cut, lobe, slice, albedo, sphere, term.",
     "check": "Run the claims of a model, or of all.",
     "shader": "Write a model as shader source.",
+    "light": "Read a luminaire file: flux, angles, glare, pictures, conversion.",
     "render": "Render a scene.",
     "lux": "Measure the sensors of a scene and check them.",
     "falsecolor": "Show luminance or illuminance in false colours.",

@@ -1,4 +1,4 @@
-"""Plots of models and terms.
+"""Plots of models, terms and luminaires.
 
 Every function gives a matplotlib figure that shows itself in a notebook and is saved with `savefig`; nothing touches
 matplotlib's global state. Light comes from the left; angles are degrees from the normal.
@@ -11,9 +11,10 @@ matplotlib's global state. Light comes from the left; angles are degrees from th
 from lesk.plot._albedo import albedo
 from lesk.plot._figure import Plot
 from lesk.plot._lobe3d import lobe3d
+from lesk.plot._luminaire import intensity, web
 from lesk.plot._polar import polar
 from lesk.plot._slice import slice
 from lesk.plot._sphere import sphere
 from lesk.plot._term import term
 
-__all__ = ["Plot", "albedo", "lobe3d", "polar", "slice", "sphere", "term"]
+__all__ = ["Plot", "albedo", "intensity", "lobe3d", "polar", "slice", "sphere", "term", "web"]

@@ -2,8 +2,9 @@
 
 use super::material::Picture;
 use crate::error::Place;
-use lesk_light::{Spectrum, Up};
+use lesk_light::{Mounting, Spectrum, Up};
 use lesk_quantities::Quantity;
+use std::path::PathBuf;
 
 /// How strong a light is, and of which colour.
 #[derive(Clone, Debug)]
@@ -69,7 +70,7 @@ impl LightDescription {
 }
 
 /// The kind of a light.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub enum LightKind {
     /// Into all directions: flux or intensity.
     Point {
@@ -89,7 +90,43 @@ pub enum LightKind {
     Directional {
         /// In which the light travels.
         direction: [f64; 3],
+        /// Angular diameter of the disk that it comes from, radians; 0 for parallel light.
+        diameter: f64,
     },
+    /// A picture thrown by a lens: flux.
+    Projector {
+        /// The picture.
+        image: Picture,
+        /// Metres.
+        position: [f64; 3],
+        /// The axis.
+        direction: [f64; 3],
+        /// What is up in the picture.
+        up: [f64; 3],
+        /// Full opening across the width, radians.
+        width: f64,
+    },
+}
+
+/// A luminaire from a photometric file.
+#[derive(Clone, Debug)]
+pub struct LuminaireDescription {
+    /// Its name in reports; may be empty.
+    pub name: String,
+    /// The IES or EULUMDAT file.
+    pub file: PathBuf,
+    /// The lamp set of an EULUMDAT file, from 0.
+    pub lamp_set: usize,
+    /// Where it hangs.
+    pub mounting: Mounting,
+    /// Luminous flux instead of that of the file.
+    pub flux: Option<Quantity>,
+    /// Factor of the flux: dimming times maintenance factor.
+    pub factor: f64,
+    /// The colour.
+    pub color: LightColor,
+    /// Where it is stated.
+    pub place: Place,
 }
 
 /// What lies behind everything.
@@ -121,6 +158,17 @@ pub enum EnvironmentKind {
         emission: Emission,
         /// Whether it ends at the horizon.
         dome: bool,
+    },
+    /// A CIE general sky.
+    CieSky {
+        /// Type, 1 to 16.
+        number: u32,
+        /// Elevation and azimuth of the sun (from north, clockwise seen from above), radians.
+        sun: [f64; 2],
+        /// Reflectance of the ground, 0 to 1.
+        ground: f64,
+        /// Luminance of the zenith, or the illuminance of a horizontal plane by the sky.
+        emission: Emission,
     },
 }
 

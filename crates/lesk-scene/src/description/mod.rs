@@ -22,7 +22,7 @@ mod object;
 pub use camera::{Aperture, CameraDescription, FieldOfView, View};
 pub use light::{
     AreaLightDescription, Emission, EnvironmentDescription, EnvironmentKind, LightColor, LightDescription, LightKind,
-    MapStrength,
+    LuminaireDescription, MapStrength,
 };
 pub use material::{MaterialDescription, Picture, Source, TextureDescription};
 pub use object::{GroupDescription, Normals, ObjectDescription, Shape, Triangles};
@@ -55,6 +55,8 @@ pub struct SceneDescription {
     pub objects: Vec<ObjectDescription>,
     /// Lights that are no surface.
     pub lights: Vec<LightDescription>,
+    /// Luminaires from photometric files.
+    pub luminaires: Vec<LuminaireDescription>,
     /// What lies behind everything.
     pub environment: Option<EnvironmentDescription>,
     /// Where relative file names start.
@@ -75,6 +77,7 @@ impl SceneDescription {
             groups: Vec::new(),
             objects: Vec::new(),
             lights: Vec::new(),
+            luminaires: Vec::new(),
             environment: None,
             folder: PathBuf::new(),
         }

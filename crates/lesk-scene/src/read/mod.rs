@@ -119,7 +119,13 @@ fn fill(scene: &mut SceneDescription, root: &Fields, problems: &mut Problems) {
     scene.materials = root.named("materials").iter().map(|e| materials::material(e, problems)).collect();
     scene.groups = root.named("groups").iter().map(|e| objects::group(e, problems)).collect();
     scene.objects = root.list("objects").iter().filter_map(|n| objects::object(n, problems)).collect();
-    scene.lights = root.list("lights").iter().filter_map(|n| lights::light(n, problems)).collect();
+    for node in root.list("lights") {
+        match lights::light(node, problems) {
+            Some(lights::Read::Light(light)) => scene.lights.push(light),
+            Some(lights::Read::Luminaire(luminaire)) => scene.luminaires.push(luminaire),
+            None => {}
+        }
+    }
     scene.environment = root.node("environment").and_then(|n| lights::environment(n, problems));
 }
 

@@ -5,6 +5,7 @@ use lesk_geometry::Mesh;
 use lesk_geometry::import::Asset;
 use lesk_image::texture::{Interpolation, Role, Wrap};
 use lesk_image::{Image, Texture, Transfer, io};
+use lesk_light::photometry::{Photometry, ReadOptions};
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -31,6 +32,7 @@ pub(super) struct Files {
     images: HashMap<PathBuf, Result<Arc<Image>, String>>,
     textures: Vec<(PathBuf, Reading, Loaded)>,
     assets: HashMap<PathBuf, Result<Arc<Asset>, String>>,
+    photometries: HashMap<(PathBuf, usize), Result<Arc<Photometry>, String>>,
     read: Vec<PathBuf>,
     hasher: blake3::Hasher,
 }
@@ -42,6 +44,7 @@ impl Files {
             images: HashMap::new(),
             textures: Vec::new(),
             assets: HashMap::new(),
+            photometries: HashMap::new(),
             read: Vec::new(),
             hasher: blake3::Hasher::new(),
         }
@@ -125,6 +128,27 @@ impl Files {
             self.textures.push((path, reading, loaded.clone()));
         }
         Ok(loaded)
+    }
+
+    /// The luminaire of a photometric file.
+    pub fn photometry(&mut self, file: &Path, lamp_set: usize) -> Result<Arc<Photometry>, String> {
+        let path = self.path(file);
+        if let Some(known) = self.photometries.get(&(path.clone(), lamp_set)) {
+            return known.clone();
+        }
+        let options = ReadOptions { strict: false, lamp_set };
+        let result = Photometry::read(&path, options).map(Arc::new).map_err(|e| e.to_string());
+        if let Ok(photometry) = &result {
+            self.read.push(path.clone());
+            let web = &photometry.web;
+            let head = format!("{:?} {:?} {:?} {:?}", web.coordinates(), web.v(), web.h(), photometry.opening);
+            self.hasher.update(head.as_bytes());
+            web.values().iter().for_each(|x| {
+                self.hasher.update(&x.to_le_bytes());
+            });
+        }
+        self.photometries.insert((path, lamp_set), result.clone());
+        result
     }
 
     /// The meshes, materials, cameras and lights of a file, with its path.

@@ -7,7 +7,7 @@ use crate::description::{
     MapStrength, Picture,
 };
 use crate::error::{Place, Problem};
-use lesk_light::{Area, Directional, Environment, Light, LightError, Point, Sky, Spectrum, Spot, Up, rec709};
+use lesk_light::{Area, CieSky, Directional, Environment, Light, LightError, Point, Sky, Spectrum, Spot, Up, rec709};
 use lesk_math::{Color, Vec3, vec3};
 use lesk_quantities::{Dimension, colorspace};
 
@@ -21,6 +21,9 @@ impl Resolver<'_> {
                 self.lights.push(light);
             }
         }
+        for luminaire in &d.luminaires {
+            self.luminaire(luminaire);
+        }
         if let Some(environment) = &d.environment
             && let Some(light) = self.environment(environment)
         {
@@ -29,10 +32,14 @@ impl Resolver<'_> {
     }
 
     fn light(&mut self, d: &LightDescription) -> Option<Light> {
+        if let LightKind::Projector { .. } = d.kind {
+            return self.projector(d);
+        }
         let about = if d.name.is_empty() { "light".to_string() } else { format!("light `{}`", d.name) };
         let accepted = match d.kind {
             LightKind::Point { .. } | LightKind::Spot { .. } => &[LuminousFlux, LuminousIntensity][..],
             LightKind::Directional { .. } => &[Illuminance],
+            LightKind::Projector { .. } => &[LuminousFlux],
         };
         let (dimension, value) = self.photometric(&about, &d.emission, accepted)?;
         let is_flux = dimension == LuminousFlux;
@@ -43,11 +50,16 @@ impl Resolver<'_> {
                 let make = if is_flux { Spot::from_flux } else { Spot::new };
                 make(narrow(position), narrow(direction), value, half_angles).map(Light::Spot)
             }
-            LightKind::Directional { direction } => Directional::new(narrow(direction), value).map(Light::Directional),
+            LightKind::Directional { direction, diameter } => {
+                let light = Directional::new(narrow(direction), value);
+                let light = if diameter > 0.0 { light.and_then(|l| l.with_diameter(diameter)) } else { light };
+                light.map(Light::Directional)
+            }
+            LightKind::Projector { .. } => return None,
         };
         let far = match d.kind {
             LightKind::Point { position } | LightKind::Spot { position, .. } => position,
-            LightKind::Directional { .. } => [0.0; 3],
+            LightKind::Directional { .. } | LightKind::Projector { .. } => [0.0; 3],
         };
         if !far.iter().all(|x| x.abs() <= 1e12) {
             let text = format!("{about} is at {far:?}, coordinates up to 1e12 m are accepted");
@@ -81,6 +93,18 @@ impl Resolver<'_> {
                 };
                 let sky = if *dome { Sky::dome(luminance, up) } else { Sky::new(luminance) };
                 self.check(d.place, "environment", sky).map(Light::Sky)
+            }
+            EnvironmentKind::CieSky { number, sun, ground, emission } => {
+                let (dimension, value) = self.photometric("environment", emission, &[Luminance, Illuminance])?;
+                let picture = CieSky::new(*number, sun[0], sun[1]).and_then(|sky| sky.picture(*ground));
+                let picture = self.check(d.place, "environment", picture)?;
+                let make = || -> Result<Environment, LightError> {
+                    let map = |scale| Environment::new(picture.clone(), scale, d.up, 0.0);
+                    let unit = if dimension == Illuminance { map(Color::splat(1.0))?.illuminance() } else { 1.0 };
+                    map(value * (1.0 / unit) as f32)
+                };
+                let made = make();
+                self.check(d.place, "environment", made).map(Light::Environment)
             }
             EnvironmentKind::Map { image, rotation, strength } => {
                 let map = self.map(image, *rotation, *strength, d.up, d.place)?;
@@ -144,14 +168,14 @@ impl Resolver<'_> {
             self.note(format!("{about}: {watts} are {amount:.6} {unit} at {}", spectrum.conversion()));
             self.spectra.insert(spectrum.to_string());
         }
-        let rgb = self.unit_color(about, d)?;
+        let rgb = self.unit_color(about, d.color, d.place)?;
         let value = rgb.map(|c| (c * amount) as f32);
         Some((dimension, rec709(value)))
     }
 
     /// The colour of an emission, scaled to luminance 1.
-    fn unit_color(&mut self, about: &str, d: &Emission) -> Option<[f64; 3]> {
-        match d.color {
+    pub(super) fn unit_color(&mut self, about: &str, color: LightColor, place: Place) -> Option<[f64; 3]> {
+        match color {
             LightColor::White => Some([1.0; 3]),
             LightColor::Spectrum(spectrum) => Some(spectrum.rgb()),
             LightColor::Rgb(rgb) => {
@@ -159,7 +183,7 @@ impl Resolver<'_> {
                 let legal = rgb.iter().all(|c| (0.0..=1e6).contains(c)) && luminance > 0.0;
                 if !legal {
                     let text = format!("{about}: `color` is {rgb:?}, three numbers from 0 are accepted, not all 0");
-                    self.problem(Problem::new(d.place, text));
+                    self.problem(Problem::new(place, text));
                     return None;
                 }
                 Some(rgb.map(|c| c / luminance))

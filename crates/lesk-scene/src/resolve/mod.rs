@@ -5,6 +5,7 @@ mod files;
 mod groups;
 mod import;
 mod lights;
+mod luminaires;
 mod materials;
 mod objects;
 

@@ -123,9 +123,18 @@ impl Resolver<'_> {
     }
 
     pub(super) fn instance_with(&mut self, part: Part, light: Option<Area>) {
+        let number = light.as_ref().map(|_| self.lights.len() as u32);
+        if self.place_part(part, number) {
+            self.lights.extend(light.map(Light::Area));
+        }
+    }
+
+    /// Adds an instance whose surface is the light of that number; gives whether it could be added.
+    pub(super) fn place_part(&mut self, part: Part, light: Option<u32>) -> bool {
         if self.objects.len() >= MAX_INSTANCES {
             let text = format!("scene has more than {MAX_INSTANCES} instances");
-            return self.problem(Problem::new(part.place, text));
+            self.problem(Problem::new(part.place, text));
+            return false;
         }
         let finite = part.transform.rows().iter().flatten().all(|v| v.is_finite());
         let result = if finite {
@@ -134,13 +143,10 @@ impl Resolver<'_> {
             Err("its transform is not finite".to_string())
         };
         if self.check(part.place, &about(part.name), result).is_none() {
-            return;
+            return false;
         }
-        let light = light.map(|area| {
-            self.lights.push(Light::Area(area));
-            self.lights.len() as u32 - 1
-        });
         self.objects.push(Object { name: part.name.to_string(), material: part.material, light });
+        true
     }
 
     /// The geometry of a shape, and the transform that gives it its size.
@@ -189,7 +195,7 @@ impl Resolver<'_> {
         number
     }
 
-    fn add_geometry(&mut self, geometry: Geometry) -> u32 {
+    pub(super) fn add_geometry(&mut self, geometry: Geometry) -> u32 {
         self.geometries.list.push(geometry.clone());
         self.world.geometry(geometry)
     }

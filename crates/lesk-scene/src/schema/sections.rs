@@ -178,6 +178,13 @@ const ILLUMINANCE: Field = field(
     "Illuminance or irradiance, lx or W/m2: of a plane perpendicular to parallel light, of a horizontal plane by a sky.",
 );
 
+const ELEVATION: Field = field("elevation", ANGLE, "Of the sun, above the horizon.");
+const AZIMUTH: Field =
+    field("azimuth", ANGLE, "Of the sun: from north (+y), clockwise over east (+x); 0 where absent.");
+const LATITUDE: Field = field("latitude", ANGLE, "Of the place, north positive, instead of `elevation`.");
+const LONGITUDE: Field = field("longitude", ANGLE, "Of the place, east positive.");
+const TIME: Field = field("time", Kind::Text, "With its zone, for example \"2025-06-21T14:00+02:00\".");
+
 /// The keys of which an emission needs exactly one.
 pub(crate) const AMOUNTS: [&str; 4] = ["flux", "intensity", "luminance", "illuminance"];
 /// The keys of which an emission takes at most one.
@@ -216,7 +223,42 @@ pub(crate) const LIGHT: Variants = Variants {
         ),
         (
             "directional",
-            &[needed("direction", Kind::Numbers(3), "The direction in which the light travels."), ILLUMINANCE],
+            &[
+                needed("direction", Kind::Numbers(3), "The direction in which the light travels."),
+                field(
+                    "diameter",
+                    ANGLE,
+                    "Angular diameter of the disk that it comes from; parallel light where absent.",
+                ),
+                ILLUMINANCE,
+            ],
+        ),
+        ("sun", &[ELEVATION, AZIMUTH, LATITUDE, LONGITUDE, TIME, ILLUMINANCE]),
+        (
+            "luminaire",
+            &[
+                needed("file", Kind::Text, "An IES or EULUMDAT file."),
+                needed("position", Kind::Numbers(3), "Of the photometric centre, metres."),
+                field("direction", Kind::Numbers(3), "Of nadir; [0, 0, -1] where absent."),
+                field("target", Kind::Numbers(3), "A point on the axis, instead of `direction`."),
+                field("rotation", ANGLE, "Turn about the axis, counter-clockwise seen from above; 0 where absent."),
+                field("lamp_set", Kind::Integer([0, 19]), "Lamp set of an EULUMDAT file, from 0."),
+                field("dimming", Kind::Number([1e-6, 1.0]), "Share of the full flux; 1 where absent."),
+                field("maintenance", Kind::Number([1e-6, 1.0]), "Maintenance factor; 1 where absent."),
+                FLUX,
+            ],
+        ),
+        (
+            "projector",
+            &[
+                needed("file", Kind::Text, "The picture: an EXR, HDR, PNG or JPEG file."),
+                needed("position", Kind::Numbers(3), "Metres."),
+                field("direction", Kind::Numbers(3), "The axis."),
+                field("target", Kind::Numbers(3), "A point on the axis, instead of `direction`."),
+                field("up", Kind::Numbers(3), "What is up in the picture; [0, 0, 1] where absent."),
+                needed("width", ANGLE, "Full opening across the width of the picture."),
+                FLUX,
+            ],
         ),
     ],
 };
@@ -261,6 +303,27 @@ pub(crate) const ENVIRONMENT: Variants = Variants {
                 TEMPERATURE,
                 SPECTRUM,
                 field("dome", Kind::Bool, "Whether it ends at the horizon; false where absent."),
+            ],
+        ),
+        (
+            "cie_sky",
+            &[
+                needed("number", Kind::Integer([1, 16]), "Type of CIE S 011; 16 is the traditional overcast sky."),
+                ELEVATION,
+                AZIMUTH,
+                LATITUDE,
+                LONGITUDE,
+                TIME,
+                field(
+                    "ground",
+                    Kind::Number([0.0, 1.0]),
+                    "Reflectance of the ground below the horizon; 0 where absent.",
+                ),
+                LUMINANCE,
+                ILLUMINANCE,
+                COLOR,
+                TEMPERATURE,
+                SPECTRUM,
             ],
         ),
     ],
