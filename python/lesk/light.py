@@ -1,7 +1,7 @@
-"""Luminaires: IES LM-63 and EULUMDAT files, read, integrated, converted and written.
+r"""Luminaires: IES LM-63 and EULUMDAT files, read, integrated, converted and written.
 
 >>> import lesk
->>> text = "IES:LM-63-2019\\nTILT=NONE\\n1 -1 1 2 1 1 2 0 0 0\\n1 1.00001 9\\n0 180\\n0\\n100 100\\n"
+>>> text = "IES:LM-63-2019\nTILT=NONE\n1 -1 1 2 1 1 2 0 0 0\n1 1.00001 9\n0 180\n0\n100 100\n"
 >>> lamp = lesk.light.parse(text)
 >>> round(lamp.flux_lm, 3)  # 4 pi 100 cd
 1256.637

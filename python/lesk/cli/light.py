@@ -118,7 +118,9 @@ def difference(first: Luminaire, second: Luminaire) -> dict[str, float | None]:
     }
 
 
-def write(output: Path, lamps: list[Luminaire], names: list[str], kind: str, edition: int, data: dict[str, Any]) -> None:
+def write(
+    output: Path, lamps: list[Luminaire], names: list[str], kind: str, edition: int, data: dict[str, Any]
+) -> None:
     """Write a picture, the data, or a converted file."""
     ending = output.suffix.lower()
     if ending in (".ies", ".ldt"):
@@ -144,7 +146,10 @@ def write(output: Path, lamps: list[Luminaire], names: list[str], kind: str, edi
 
 def show(facts: dict[str, Any]) -> None:
     """Print the facts of one file."""
-    rows = [("file", facts["file"]), ("format", f"{facts['format']}, type {facts['type']}, symmetry {facts['symmetry']}")]
+    rows = [
+        ("file", facts["file"]),
+        ("format", f"{facts['format']}, type {facts['type']}, symmetry {facts['symmetry']}"),
+    ]
     counts_light = facts["flux_lm"] is not None
     unit, flux, declared = (
         ("lm", facts["flux_lm"], facts["declared_flux_lm"])
@@ -155,7 +160,9 @@ def show(facts: dict[str, Any]) -> None:
     if declared is not None:
         rows.append((f"declared ({facts['declared_of']})", f"{declared:.6g} {unit}"))
     peak = f"{facts['peak_cd']:.6g} cd" if counts_light else f"{facts['peak_mw_sr']:.6g} mW/sr"
-    rows.append(("largest intensity", f"{peak} at theta {facts['peak_theta_deg']:.4g}°, phi {facts['peak_phi_deg']:.4g}°"))
+    rows.append(
+        ("largest intensity", f"{peak} at theta {facts['peak_theta_deg']:.4g}°, phi {facts['peak_phi_deg']:.4g}°")
+    )
     for name, key in (("beam angle (50 %)", "beam_angle_deg"), ("field angle (10 %)", "field_angle_deg")):
         across, along = facts[key]
         rows.append((name, f"{across:.1f}° in C0-C180, {along:.1f}° in C90-C270"))

@@ -109,7 +109,10 @@ def web(luminaire: Luminaire) -> Plot:
         for label, d in (("C0", (reach, 0, 0)), ("C90", (0, reach, 0)), ("nadir", (0, 0, -reach))):
             axes.plot(*zip((0, 0, 0), d, strict=True), color=INK, linewidth=0.8)
             axes.text(*d, label, fontsize=9)
-        limits = [float(min(part.min(), 0.0)) for part in (x, y, z)], [float(max(part.max(), 0.0)) for part in (x, y, z)]
+        limits = (
+            [float(min(part.min(), 0.0)) for part in (x, y, z)],
+            [float(max(part.max(), 0.0)) for part in (x, y, z)],
+        )
         spans = [(low - 0.05, high + 0.05) for low, high in zip(*limits, strict=True)]
         axes.set_xlim(*spans[0])
         axes.set_ylim(*spans[1])
