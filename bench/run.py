@@ -17,7 +17,13 @@ from table import Table, save
 from timing import load_average, pin
 
 ROOT = Path(__file__).resolve().parent.parent
-SECTIONS = {"batch": "models through NumPy", "rays": "single rays", "paths": "path tracing", "raster": "rasterising"}
+SECTIONS = {
+    "batch": "models through NumPy",
+    "rays": "single rays",
+    "paths": "path tracing",
+    "lux": "measuring an office",
+    "raster": "rasterising",
+}
 
 
 def parse() -> argparse.Namespace:

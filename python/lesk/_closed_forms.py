@@ -159,7 +159,7 @@ def cube_radiosity(
     # the mean over each square, so that no flux is lost: the midpoint rule on 16 x 16 parts
     fine = (np.arange(16 * cells) + 0.5) / (16 * cells) * 2 - 1
     fine_grid = np.stack(np.meshgrid(fine, fine, indexing="ij"), axis=-1)
-    direct = _cube_direct(fine_grid, intensity, half).reshape(cells, 16, cells, 16).mean((1, 3)).reshape(-1)
+    direct: Array = _cube_direct(fine_grid, intensity, half).reshape(cells, 16, cells, 16).mean((1, 3)).reshape(-1)
     matrix = np.array([_cube_factors(x, y, cells) for x, y in grid])
     total = np.linalg.solve(np.eye(len(grid)) - rho * matrix, direct)
     wanted = np.array(places, float)
@@ -169,7 +169,7 @@ def cube_radiosity(
 
 def _cube_direct(places: Array, intensity: float, half: float) -> Array:
     square = 1 + (places**2).sum(-1)
-    return intensity / half**2 / square**1.5
+    return np.asarray(intensity / half**2 / square**1.5, np.float64)
 
 
 def _cube_factors(x: float, y: float, cells: int) -> Array:

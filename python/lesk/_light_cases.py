@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
 
@@ -142,7 +143,7 @@ def _points() -> Iterator[Case]:
     forms = Case("receivers").light("point", position=[2 * s, 0, 2 * c], flux="1600 lm")
     forms.point("planar", perpendicular * c, (0, 0, 0), exact=True)
     forms.point("cylindrical: E sin / pi", perpendicular * s / math.pi, (0, 0, 0), exact=True, receiver="cylindrical")
-    half = {"exact": True, "receiver": "semicylindrical"}
+    half: dict[str, Any] = {"exact": True, "receiver": "semicylindrical"}
     toward = perpendicular * 2 * s / math.pi
     forms.point("semicylindrical, facing it: 2 E sin / pi", toward, (0, 0, 0), facing=[1, 0, 0], **half)
     forms.point("semicylindrical, sideways", toward / 2, (0, 0, 0), facing=[0, 1, 0], **half)
@@ -150,7 +151,7 @@ def _points() -> Iterator[Case]:
     hemisphere = perpendicular * (1 + c) / 4
     yield forms.point("hemispherical: E (1 + cos) / 4", hemisphere, (0, 0, 0), exact=True, receiver="hemispherical")
     watts = Case("receivers").light("point", position=[0, 0, 2], flux="100 W", spectrum="E")
-    keys = {"quantity": "radiometric", "spectrum": "E"}
+    keys: dict[str, Any] = {"quantity": "radiometric", "spectrum": "E"}
     yield watts.point("100 W in W/m2, spectrum E", 100 / (16 * math.pi), (0, 0, 0), exact=True, **keys)
     for angle in (15, 30, 45, 60):
         spot = Case("spot").light(
@@ -163,8 +164,8 @@ def _points() -> Iterator[Case]:
     for angle in (0, 25, 35):
         c = math.cos(math.radians(angle))
         expected = exact.smooth_spot_intensity(1000, 20, 40, angle) * c**3 / 4
-        at = (2 * math.tan(math.radians(angle)), 0, 0)
-        smooth.point(f"smooth edge 20 to 40 deg, at {angle} deg", expected, at, exact=True)
+        aside = 2 * math.tan(math.radians(angle))
+        smooth.point(f"smooth edge 20 to 40 deg, at {angle} deg", expected, (aside, 0, 0), exact=True)
     yield smooth
     sun = Case("parallel light").light("directional", direction=[0.6, 0, -0.8], illuminance="1000 lx")
     sun.point("1000 lx, horizontal", 800, (0, 0, 0), exact=True)
@@ -179,11 +180,12 @@ def _surfaces() -> Iterator[Case]:
     for x, y in ((0, 0), (1, 0), (2, 0), (0, 1), (0, 2), (1, 1), (2, 2), (4, 0)):
         expected = exact.polygon(1000, panel, np.array([x, y, 0.0]), np.array(UP))
         case.point(f"2 x 1 m, parallel, ({x}, {y})", expected, (x, y, 0))
-    for what, at, normal in (
+    turned: tuple[tuple[str, Sequence[float], Sequence[float]], ...] = (
         ("perpendicular", (2, 0, 1), (-1, 0, 0)),
         ("tilted", (0.5, 0.3, 0), (0.6, 0, 0.8)),
         ("cut by the horizon", (0, 0, 2), (1, 0, 0)),
-    ):
+    )
+    for what, at, normal in turned:
         expected = exact.polygon(1000, panel, np.array(at, float), np.array(normal, float))
         case.point(f"2 x 1 m, {what}", expected, at, normal)
     yield case
@@ -191,8 +193,8 @@ def _surfaces() -> Iterator[Case]:
         "rectangle", width="1 m", height="1 m", steps=[DOWN, "{ translate = [0.5, 0.5, 1] }"], light=lamp
     )
     yield corner.point("under a corner, F(1,1,1)", math.pi * 1000 * exact.parallel_factor(1, 1, 1), (0, 0, 0))
-    turned = ['{ rotate = "-90 deg", axis = [0, 1, 0] }', "{ translate = [2, 0.5, 0.75] }"]
-    wall = Case("rectangle").thing("rectangle", width="1.5 m", height="1 m", steps=turned, light=lamp)
+    upright = ['{ rotate = "-90 deg", axis = [0, 1, 0] }', "{ translate = [2, 0.5, 0.75] }"]
+    wall = Case("rectangle").thing("rectangle", width="1.5 m", height="1 m", steps=upright, light=lamp)
     expected = math.pi * 1000 * exact.perpendicular_factor(1, 1.5, 2)
     yield wall.point("wall on the floor, 1 x 1.5 m at 2 m", expected, (0, 0, 0))
     disk = Case("disk").thing(
@@ -257,7 +259,7 @@ def _rooms() -> Iterator[Case]:
     for rho in (0.2, 0.5, 0.8, 0.9, 0.95):
         room = Case("cube of 4 m", error=0.03).light("point", position=[0, 0, 0], flux="10000 lm")
         room.thing("cube", edge="4 m", material=room.diffuse(rho))
-        edges = {"corner": [-2, -2, -2], "u": [4, 0, 0], "v": [0, 4, 0], "spacing": "0.2 m"}
+        edges: dict[str, Any] = {"corner": [-2, -2, -2], "u": [4, 0, 0], "v": [0, 4, 0], "spacing": "0.2 m"}
         expected = exact.enclosure_mean(1e4, 96, rho)
         yield room.grid(f"rho {rho}: mean indirect", expected, part="indirect", **edges)
     places = [(0.0, 0.0), (0.5, 0.5), (0.75, 0.75)]
@@ -319,7 +321,7 @@ def _factors() -> Iterator[Case]:
     lamp = '{ luminance = "1000 cd/m2" }'
     n = 16
     middles = (np.arange(n) + 0.5) / n
-    edges = {"corner": [0, 0, 0], "u": [1, 0, 0], "v": [0, 1, 0], "spacing": f"{1 / n} m"}
+    edges: dict[str, Any] = {"corner": [0, 0, 0], "u": [1, 0, 0], "v": [0, 1, 0], "spacing": f"{1 / n} m"}
     opposite = Case("unit cube", error=0.01).thing(
         "rectangle", width="1 m", height="1 m", steps=[DOWN, "{ translate = [0.5, 0.5, 1] }"], light=lamp
     )

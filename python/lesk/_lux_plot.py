@@ -18,6 +18,8 @@ from lesk.scene import Scene
 Array = npt.NDArray[np.float64]
 
 _STEPS = 256
+_NUMBERS = 60
+"""Grids of up to so many points show their numbers, larger ones isolux lines."""
 LEVELS = (1, 2, 3, 5, 7.5, 10)
 """Isolux lines are drawn at these times powers of ten: the scale of illuminances of EN 12464-1, thinned."""
 
@@ -40,9 +42,9 @@ def levels(low: float, high: float) -> list[float]:
         return []
     powers = range(-6, 8)
     scale = [step * 10.0**power for power in powers for step in LEVELS[:-1]]
-    if high < 3 * max(low, 1e-12):
+    if high < 20 * low:
         step = 10.0 ** np.floor(np.log10(high - low))
-        step *= next(f for f in (0.2, 0.5, 1, 2) if (high - low) / (f * step) <= 8)
+        step *= next(f for f in (0.1, 0.2, 0.5, 1, 2) if (high - low) / (f * step) <= 8)
         return [float(v) for v in np.arange(np.ceil(low / step), high / step) * step if v > 0]
     return [v for v in scale if low < v < high][-8:]
 
@@ -77,7 +79,7 @@ def plan(sensor: Readings, *, factor: float = 1.0, scene: Scene | None = None) -
         image = _colored(axes, x, y, value, sensor.unit, figure)
         _outlines(axes, scene, sensor, along)
         lines = levels(float(value.min()), float(value.max()))
-        if min(value.shape) > 1 and lines:
+        if value.size > _NUMBERS and min(value.shape) > 1 and lines:
             contours = axes.contour(x, y, value, levels=lines, colors="white", linewidths=1.1)
             axes.clabel(contours, fmt="%g", fontsize=8, colors="white")
             image.colorbar.add_lines(contours, erase=True)
@@ -92,7 +94,7 @@ def _colored(axes: Any, x: Array, y: Array, value: Array, unit: str, figure: Plo
         low, high = low - 0.5, high + 0.5
     image = axes.pcolormesh(x, y, value, cmap=colormap(), norm=norm(low, high, log=False), shading="nearest")
     for place in np.ndindex(value.shape):
-        if value.size <= 120:
+        if value.size <= _NUMBERS:
             shade = (value[place] - low) / (high - low)
             color = "black" if shade > 0.62 else "white"
             axes.text(x[place], y[place], f"{value[place]:.0f}", ha="center", va="center", fontsize=6.5, color=color)
@@ -101,7 +103,7 @@ def _colored(axes: Any, x: Array, y: Array, value: Array, unit: str, figure: Plo
 
 
 def _outlines(axes: Any, scene: Scene | None, sensor: Readings, along: Sequence[str]) -> None:
-    """Objects that are smaller than the view, as rectangles: lamps dashed, furniture solid."""
+    """Objects wider than a board and smaller than the view, as rectangles: lamps dashed, furniture solid."""
     from matplotlib.patches import Rectangle
 
     if scene is None or "".join(along) != "xy":
@@ -110,11 +112,17 @@ def _outlines(axes: Any, scene: Scene | None, sensor: Readings, along: Sequence[
     for _, smallest, largest, shines in scene.boxes():
         size = np.subtract(largest, smallest)[:2]
         inside = np.all(np.greater(largest[:2], low[:2]) & np.less(smallest[:2], high[:2]))
-        if inside and np.all(size > 0) and np.all(size < 0.7 * (high - low)[:2]):
+        if inside and np.all(size > 0.08) and np.all(size < 0.7 * (high - low)[:2]):
             edge = "#ffffff" if shines else INK
             axes.add_patch(
                 Rectangle(
-                    smallest[:2], *size, fill=False, edgecolor=edge, linewidth=1, linestyle="--" if shines else "-"
+                    (smallest[0], smallest[1]),
+                    size[0],
+                    size[1],
+                    fill=False,
+                    edgecolor=edge,
+                    linewidth=1,
+                    linestyle="--" if shines else "-",
                 )
             )
 
@@ -181,27 +189,26 @@ def picture(
     lit = value[value > 0] if log else value[np.isfinite(value)]
     if lit.size == 0:
         lit = np.array([0.1, 1.0])
-    low = float(np.percentile(lit, 1)) if low is None else low
-    high = float(np.percentile(lit, 99)) if high is None else high
-    if not high > low:
-        high = low * 1.01 + 1e-9
-    if not (np.isfinite([low, high]).all() and (low > 0 or not log)):
-        raise ParameterError(
-            f"the scale goes from {low:g} to {high:g}, but {'0 < ' if log else ''}low < high is accepted"
-        )
+    ends = [float(np.percentile(lit, at)) if given is None else given for given, at in ((low, 1), (high, 99))]
+    if low is None and high is None and not ends[1] > ends[0]:
+        # all pixels alike
+        ends[1] = ends[0] * 1.01 + 1e-9
+    if not (np.isfinite(ends).all() and ends[0] < ends[1] and (ends[0] > 0 or not log)):
+        accepted = "0 < low < high" if log else "low < high"
+        raise ParameterError(f"the scale goes from {ends[0]:g} to {ends[1]:g}, but {accepted} is accepted")
     rows, columns = value.shape
     wide = 7.2
     with style():
         figure = Plot(figsize=(wide + 1.1, wide * rows / columns + 0.5), layout="constrained")
         axes = figure.add_subplot()
-        image = axes.imshow(value, cmap=colormap(), norm=norm(low, high, log), interpolation="nearest")
+        image = axes.imshow(value, cmap=colormap(), norm=norm(ends[0], ends[1], log), interpolation="nearest")
         axes.set_axis_off()
         if title:
             axes.set_title(title)
         bar = figure.colorbar(image, ax=axes, label=unit.replace("m2", "m²"), shrink=0.92, pad=0.02, extend="both")
         if log:
             ticks = [step * 10.0**power for power in range(-6, 10) for step in (1, 2, 5)]
-            bar.set_ticks([t for t in ticks if low <= t <= high])
+            bar.set_ticks([t for t in ticks if ends[0] <= t <= ends[1]])
             bar.ax.minorticks_off()
             bar.ax.yaxis.set_major_formatter(lambda v, _: f"{v:g}")
     return figure

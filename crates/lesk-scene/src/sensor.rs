@@ -9,6 +9,9 @@ use crate::tasks::Task;
 use lesk_geometry::Transform;
 use lesk_light::Spectrum;
 use lesk_math::{Vec3, vec3};
+use lesk_quantities::K_M;
+use lesk_quantities::photometry::{Range, Vision};
+use lesk_quantities::units::AVOGADRO;
 
 /// Most readings of one sensor.
 pub const MAX_PROBES: usize = 1 << 22;
@@ -119,13 +122,29 @@ pub enum Response {
     },
 }
 
-/// The quantity that is reported; watts need a spectrum, which the light at the sensor is taken to have.
+/// The quantity that is reported; watts and photons need a spectrum, which the light at the sensor is taken to have.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Quantity {
     /// lx, or cd/m² of a luminance form.
     Photometric,
     /// W/m², or W/m²/sr.
     Radiometric(Spectrum),
+    /// µmol/m²/s of photons from 400 to 700 nm (PPFD), or µmol/m²/s/sr.
+    Photons(Spectrum),
+}
+
+/// Wavelengths whose photons plants use: McCree, *The action spectrum, absorptance and quantum yield of photosynthesis in
+/// crop plants*, 1972.
+const PLANTS: Range = Range { first_nm: 400, last_nm: 700 };
+
+/// Photons from 400 to 700 nm per lumen, µmol/(lm s).
+fn photons_per_lumen(spectrum: Spectrum) -> f64 {
+    // both crates know the names of `lesk_light`
+    let spectrum = lesk_quantities::Spectrum::parse(&spectrum.to_string()).expect("the name of a spectrum");
+    let photons = spectrum.photons_per_joule(Some(PLANTS)) * spectrum.energy(Some(PLANTS));
+    let visible = Some(Range::VISIBLE);
+    let lumens = spectrum.efficacy(visible, Vision::Photopic) * spectrum.energy(visible);
+    photons / AVOGADRO * 1e6 / lumens
 }
 
 impl Quantity {
@@ -134,6 +153,7 @@ impl Quantity {
         match self {
             Quantity::Photometric => 1.0,
             Quantity::Radiometric(spectrum) => 1.0 / spectrum.efficacy(),
+            Quantity::Photons(spectrum) => photons_per_lumen(spectrum),
         }
     }
 
@@ -142,6 +162,10 @@ impl Quantity {
         match self {
             Quantity::Photometric => String::new(),
             Quantity::Radiometric(spectrum) => spectrum.conversion(),
+            Quantity::Photons(spectrum) => {
+                let per_lumen = photons_per_lumen(spectrum);
+                format!("{per_lumen:.6} umol/s of 400 to 700 nm per lm ({spectrum}, K_m = {K_M} lm/W)")
+            }
         }
     }
 }
@@ -240,6 +264,8 @@ impl Sensor {
             (Quantity::Photometric, true) => "cd/m2",
             (Quantity::Radiometric(_), false) => "W/m2",
             (Quantity::Radiometric(_), true) => "W/m2/sr",
+            (Quantity::Photons(_), false) => "umol/m2/s",
+            (Quantity::Photons(_), true) => "umol/m2/s/sr",
         }
     }
 
@@ -353,6 +379,18 @@ mod tests {
             assert!((Vec3::from(*place) - Vec3::from(expected)).length() < 1e-12, "{place:?}");
         }
         assert_eq!(places.len(), 6);
+    }
+
+    #[test]
+    fn photons_of_equal_energy_light_are_the_integral_of_the_wavelength() {
+        // per W/nm: (700² - 400²)/2 nm² / (h c N_A) = 1379.31 umol/s and 683.002 * 106.8564 nm = 72983 lm
+        let (hc, avogadro) = (6.626_070_15e-34 * 299_792_458.0, 6.022_140_76e23);
+        let photons = (700f64.powi(2) - 400f64.powi(2)) / 2.0 * 1e-9 / hc / avogadro * 1e6;
+        let expected = photons / (683.002 * 106.856_399);
+        let found = Quantity::Photons(Spectrum::E).per_lumen();
+        assert!((found / expected - 1.0).abs() < 1e-6, "{found} is not {expected}");
+        // daylight: about 54 lx per umol/m2/s (Thimijan & Heins, HortScience 18, 1983)
+        assert!((1.0 / Quantity::Photons(Spectrum::D65).per_lumen() / 54.0 - 1.0).abs() < 0.05);
     }
 
     #[test]

@@ -119,7 +119,8 @@ def show(report: LuxReport) -> None:
     from rich.table import Table
 
     found = report.measurement
-    console = Console(highlight=False)
+    # a file or pipe has no width of its own
+    console = Console(highlight=False, width=None if sys.stdout.isatty() else 130)
     table = Table(title=report.title or None, title_justify="left")
     for name in ("surface", "points", "mean", "±", "min", "max", "U0", "Ud", "demanded", ""):
         table.add_column(name, justify="left" if name in ("surface", "demanded", "") else "right")
@@ -134,8 +135,11 @@ def show(report: LuxReport) -> None:
         if sensor.conversion:
             print(f"{sensor.name}: {sensor.conversion}")
     worst = max(s.relative_error for s in found.sensors)
+    error = (
+        "some readings have no samples" if worst != worst else f"greatest relative standard error {100 * worst:.2f} %"
+    )
     print(f"maintained values: maintenance factor {report.maintenance_factor:g}; requirements: {EDITION}")
-    print(f"{found.ended} after {found.seconds:.1f} s, greatest relative standard error {100 * worst:.2f} %")
+    print(f"{found.ended} after {found.seconds:.1f} s, {error}")
 
 
 def cells(row: dict[str, Any]) -> list[str]:

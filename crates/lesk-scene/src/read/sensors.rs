@@ -208,6 +208,7 @@ fn quantity(fields: &Fields, problems: &mut Problems) -> Option<Quantity> {
     match (name, spectrum) {
         ("photometric", None) => Some(Quantity::Photometric),
         ("radiometric", Some(spectrum)) => Some(Quantity::Radiometric(spectrum)),
+        ("photons", Some(spectrum)) => Some(Quantity::Photons(spectrum)),
         ("photometric", Some(_)) => {
             let text = "`spectrum` is given, but the quantity is photometric";
             problems.add(Problem::new(fields.place_of("spectrum"), text).hint("add `quantity = \"radiometric\"`"));

@@ -49,10 +49,10 @@ pub(crate) const SENSOR: Variants = Variants {
         needed("name", Kind::Text, "Its name in reports."),
         field(
             "quantity",
-            Kind::Choice(&["photometric", "radiometric"]),
-            "lx and cd/m2, or W/m2 and W/m2/sr; photometric where absent.",
+            Kind::Choice(&["photometric", "radiometric", "photons"]),
+            "lx and cd/m2, W/m2 and W/m2/sr, or umol/m2/s and umol/m2/s/sr; photometric where absent.",
         ),
-        field("spectrum", Kind::Text, "The spectrum that the light is taken to have, for watts."),
+        field("spectrum", Kind::Text, "The spectrum that the light is taken to have, for watts and photons."),
     ],
     cases: &[
         ("point", &[POSITION, RECEIVER, NORMAL, FACING, TASK, MIN_MEAN]),
