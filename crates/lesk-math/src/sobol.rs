@@ -3,7 +3,8 @@
 //! The first four Sobol dimensions make one set. Every draw takes a set of its own: the same points, in an order and
 //! with a scrambling that are hashed from the seed, the pixel and the number of the draw ("padding"). So any number of
 //! dimensions costs the same, and the first two numbers of every draw are a (0, m, 2)-net in base 2: of any aligned block
-//! of 2^m samples, exactly one falls into each rectangle 2^-a by 2^-(m-a).
+//! of 2^m samples, exactly one falls into each rectangle 2^-a by 2^-(m-a). That holds up to m = 16: each 65,536 samples of
+//! a pixel are scrambled anew, so that points need 16 bits of their index only.
 
 use crate::rng::{mix64, unit_f32};
 
@@ -20,6 +21,7 @@ use crate::rng::{mix64, unit_f32};
 pub struct Sampler {
     seed: u32,
     pixel_seed: u64,
+    /// The lower 16 bits of the sample number, reversed.
     reversed_index: u32,
     draw: u64,
 }
@@ -36,8 +38,9 @@ impl Sampler {
     /// Goes to the first draw of a sample of a pixel.
     #[inline]
     pub fn start(&mut self, pixel: u32, sample: u32) {
-        self.pixel_seed = mix64(u64::from(self.seed) << 32 | u64::from(pixel));
-        self.reversed_index = sample.reverse_bits();
+        let pixel_seed = mix64(u64::from(self.seed) << 32 | u64::from(pixel));
+        self.pixel_seed = mix64(pixel_seed ^ u64::from(sample >> 16));
+        self.reversed_index = sample.reverse_bits() >> 16;
         self.draw = 0;
     }
 
@@ -76,7 +79,7 @@ impl Sampler {
     fn next_set(&mut self) -> (u32, u64) {
         self.draw = self.draw.wrapping_add(GOLDEN);
         let hash = mix64(self.pixel_seed.wrapping_add(self.draw));
-        (reversed_owen(self.reversed_index, hash as u32).reverse_bits(), mix64(hash))
+        (reversed_owen(self.reversed_index, hash as u32).reverse_bits() >> 16, mix64(hash))
     }
 }
 
@@ -108,41 +111,47 @@ fn reversed_owen(mut x: u32, seed: u32) -> u32 {
 /// The point of number `index` of the Sobol sequence in its first four dimensions, as binary fractions of 32 bits, with the
 /// direction numbers of Joe & Kuo, *Constructing Sobol Sequences with Better Two-Dimensional Projections*, 2008.
 pub fn sobol(index: u32) -> [u32; 4] {
-    let [third, fourth] = reversed_third_and_fourth(index);
-    [index, reversed_second(index), third, fourth].map(u32::reverse_bits)
+    let bits = || (0..32).filter(|bit| index >> bit & 1 == 1);
+    let [third, fourth] = COLUMNS.map(|column| bits().fold(0, |sum, bit| sum ^ column[bit]));
+    // bit j of the second is the sum mod 2 of C(k, j) over the bits k of the index: the lower half, then the upper
+    let (low, high) = (reversed_second(index & 0xffff), reversed_second(index >> 16));
+    let second = (low ^ high) | high << 16;
+    [index.reverse_bits(), second.reverse_bits(), third, fourth]
 }
 
-/// The second coordinate, bits reversed: bit j is the sum mod 2 of C(k, j) over the bits k of the index, and C(k, j) is
-/// odd where the bits of k contain those of j (Lucas), so that five butterfly steps do.
+/// The second coordinate of a point of number below 2^16, bits reversed: bit j is the sum mod 2 of C(k, j) over the bits k
+/// of the index, and C(k, j) is odd where the bits of k contain those of j (Lucas), so that four butterfly steps do.
 #[inline(always)]
 fn reversed_second(mut x: u32) -> u32 {
-    x ^= (x >> 1) & 0x5555_5555;
-    x ^= (x >> 2) & 0x3333_3333;
-    x ^= (x >> 4) & 0x0f0f_0f0f;
-    x ^= (x >> 8) & 0x00ff_00ff;
-    x ^ (x >> 16)
+    x ^= (x >> 1) & 0x5555;
+    x ^= (x >> 2) & 0x3333;
+    x ^= (x >> 4) & 0x0f0f;
+    x ^ (x >> 8)
 }
 
-/// The third and fourth coordinate, bits reversed.
+/// The third and fourth coordinate of a point of number below 2^16, bits reversed.
 #[inline(always)]
 fn reversed_third_and_fourth(index: u32) -> [u32; 2] {
-    let mut sum = [0, 0];
+    let mut both = 0;
     for (nibble, table) in NIBBLES.iter().enumerate() {
-        let entry = table[(index >> (4 * nibble) & 15) as usize];
-        sum = [sum[0] ^ entry[0], sum[1] ^ entry[1]];
+        both ^= table[(index >> (4 * nibble) & 15) as usize];
     }
-    sum
+    [both & 0xffff, both >> 16]
 }
 
-/// The sums of direction numbers for every value of every nibble of the index.
-static NIBBLES: [[[u32; 2]; 16]; 8] = {
-    let columns = [direction_numbers(2, 1, [1, 3, 0]), direction_numbers(3, 1, [1, 3, 1])];
-    let mut table = [[[0; 2]; 16]; 8];
+/// Direction numbers of the third and fourth dimension.
+const COLUMNS: [[u32; 32]; 2] = [direction_numbers(2, 1, [1, 3, 0]), direction_numbers(3, 1, [1, 3, 1])];
+
+/// The sums of direction numbers for every value of every nibble of a 16-bit index: the third dimension, bits reversed,
+/// in the lower half, the fourth in the upper.
+static NIBBLES: [[u32; 16]; 4] = {
+    let mut table = [[0; 16]; 4];
     let mut k = 0;
-    while k < 8 * 16 * 2 * 4 {
-        let (nibble, value, dimension, bit) = (k / 128, k / 8 % 16, k / 4 % 2, k % 4);
+    while k < 4 * 16 * 4 {
+        let (nibble, value, bit) = (k / 64, k / 4 % 16, k % 4);
         if value >> bit & 1 == 1 {
-            table[nibble][value][dimension] ^= columns[dimension][4 * nibble + bit].reverse_bits();
+            let column = 4 * nibble + bit;
+            table[nibble][value] ^= COLUMNS[0][column].reverse_bits() | COLUMNS[1][column].reverse_bits() << 16;
         }
         k += 1;
     }
@@ -170,4 +179,18 @@ const fn direction_numbers(degree: usize, a: u32, m: [u32; 3]) -> [u32; 32] {
         k += 1;
     }
     v
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn short_points_are_the_first_ones_of_the_sequence() {
+        for index in 0..1 << 16 {
+            let [third, fourth] = reversed_third_and_fourth(index);
+            let short = [index, reversed_second(index), third, fourth].map(u32::reverse_bits);
+            assert_eq!(short, sobol(index));
+        }
+    }
 }
