@@ -13,8 +13,8 @@ from table import Row, Table
 
 HERE = Path(__file__).resolve().parent
 Rates = dict[tuple[str, str, str], float]
-# the best of seven runs: both programs count wall time, and other programs may want the core
-LINE = re.compile(r"\s+(primary|bounce)\s+(nearest|any)\s+[\d.]+ \(best ([\d.]+)\)")
+# the median of seven runs: both programs count processor time
+LINE = re.compile(r"\s+(primary|bounce)\s+(nearest|any)\s+([\d.]+) \(best [\d.]+\)")
 
 
 def build_embree(folder: Path) -> Path | None:
@@ -57,8 +57,8 @@ def parse_embree(text: str) -> tuple[Rates, int]:
         match line.split():
             case [mesh, kind, "disagree", count]:
                 disagree += int(count)
-            case [mesh, kind, ("nearest" | "any") as query, _, best]:
-                rates[mesh, kind, query] = float(best)
+            case [mesh, kind, ("nearest" | "any") as query, median, _]:
+                rates[mesh, kind, query] = float(median)
     return rates, disagree
 
 
@@ -76,7 +76,7 @@ def run(quick: bool) -> list[Table]:
             return []
         lesk = lesk_program()
         ours, theirs, disagree = [], [], 0
-        for _ in range(1 if quick else 3):
+        for _ in range(2 if quick else 5):
             ours.append(parse_lesk(output([str(lesk), name])))
             rates, disagree = parse_embree(output([str(embree), name]))
             theirs.append(rates)

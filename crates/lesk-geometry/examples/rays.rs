@@ -70,14 +70,22 @@ fn bounce_rays(world: &World, primary: &[Ray]) -> Vec<Ray> {
     rays
 }
 
+/// Seconds that this thread has run, where Linux tells; elsewhere wall time, in which other programs count too.
+fn now(start: &Instant) -> f64 {
+    let told = std::fs::read_to_string("/proc/thread-self/schedstat").ok();
+    let nanoseconds = told.and_then(|text| text.split_whitespace().next()?.parse::<f64>().ok());
+    nanoseconds.map_or_else(|| start.elapsed().as_secs_f64(), |ns| ns * 1e-9)
+}
+
 /// Median and best millions of rays per second of seven runs.
 fn rate(rays: &[Ray], mut cast: impl FnMut(&Ray) -> bool) -> (f64, f64, usize) {
     let mut seconds = Vec::new();
     let mut hits = 0;
+    let zero = Instant::now();
     for _ in 0..7 {
-        let start = Instant::now();
+        let start = now(&zero);
         hits = rays.iter().filter(|r| cast(r)).count();
-        seconds.push(start.elapsed().as_secs_f64());
+        seconds.push(now(&zero) - start);
     }
     seconds.sort_by(f64::total_cmp);
     let per_second = |s: f64| rays.len() as f64 / s * 1e-6;

@@ -39,7 +39,16 @@ impl Surface {
     /// The shading frame: normal `ns`, tangent along `dpdu`.
     #[inline]
     pub fn frame(&self) -> Frame<f32> {
-        Frame::from_normal_tangent(self.ns, self.dpdu)
+        let n = self.ns;
+        let t = self.dpdu - n * n.dot(self.dpdu);
+        let square = t.length_squared();
+        // as `Frame::from_normal_tangent`, which evaluates both sides
+        if square > 1e-20 {
+            let t = t * (1.0 / square.sqrt());
+            Frame { t, b: n.cross(t), n }
+        } else {
+            Frame::from_normal(n)
+        }
     }
 
     /// The position moved off the surface to the side that `d` points to.
@@ -49,10 +58,10 @@ impl Surface {
     }
 }
 
-/// The surface where `hit` found it.
-pub(crate) fn surface_at(geometry: &Geometry, place: &Transform, ray: &Ray, hit: &Hit) -> Surface {
+/// The surface where `hit` found it. `moved` says that `place` is not the identity.
+pub(crate) fn surface_at(geometry: &Geometry, place: &Transform, moved: bool, ray: &Ray, hit: &Hit) -> Surface {
     match geometry.mesh() {
-        Some(mesh) => triangle_surface(mesh, place, hit),
+        Some(mesh) => triangle_surface(mesh, moved.then_some(place), hit),
         None => curved_surface(geometry, place, ray, hit),
     }
 }
@@ -75,13 +84,17 @@ fn curved_surface(geometry: &Geometry, place: &Transform, ray: &Ray, hit: &Hit) 
     }
 }
 
-fn triangle_surface(mesh: &Mesh, place: &Transform, hit: &Hit) -> Surface {
+/// `None` is the identity.
+fn triangle_surface(mesh: &Mesh, place: Option<&Transform>, hit: &Hit) -> Surface {
     let index = hit.prim as usize;
     let local = mesh.corners(index);
-    let [a, b, c] = local.map(|v| widen(place.point(v)));
-    let weights = [1.0 - hit.u - hit.v, hit.u, hit.v].map(f64::from);
-    let p = narrow(a * weights[0] + b * weights[1] + c * weights[2]);
-    let ng = narrow((b - a).cross(c - a).normalize() * place.determinant().signum());
+    let world = place.map_or(local, |place| local.map(|v| place.point(v)));
+    let [a, b, c] = world.map(widen);
+    let weights = [1.0 - hit.u - hit.v, hit.u, hit.v];
+    let wide = weights.map(f64::from);
+    let p = narrow(a * wide[0] + b * wide[1] + c * wide[2]);
+    let outward = (b - a).cross(c - a).normalize();
+    let ng = narrow(place.map_or(outward, |place| outward * place.determinant().signum()));
     let ns = shading_normal(mesh, place, index, weights, ng);
     Surface {
         p,
@@ -96,21 +109,24 @@ fn triangle_surface(mesh: &Mesh, place: &Transform, hit: &Hit) -> Surface {
 }
 
 /// Bounds the coordinates that take part in finding a point of the triangle, in the world and in its local space.
-fn magnitude(place: &Transform, local: &[Vec3<f32>; 3], p: Vec3<f32>) -> Vec3<f32> {
-    let largest = |f: fn(&Vec3<f32>) -> f32| local.iter().map(f).fold(0.0f32, |m, x| m.max(x.abs()));
-    let size = [largest(|v| v.x), largest(|v| v.y), largest(|v| v.z)];
+fn magnitude(place: Option<&Transform>, local: &[Vec3<f32>; 3], p: Vec3<f32>) -> Vec3<f32> {
+    let [a, b, c] = local.map(abs);
+    let larger = |x: f32, y: f32| if x > y { x } else { y };
+    let largest = |x: f32, y: f32, z: f32| larger(larger(x, y), z);
+    let size = [largest(a.x, b.x, c.x), largest(a.y, b.y, c.y), largest(a.z, b.z, c.z)];
+    let Some(place) = place else { return Vec3::from(size) + abs(p) };
     let row = |r: &[f64; 4]| (0..3).map(|k| r[k].abs() as f32 * size[k]).sum::<f32>() + r[3].abs() as f32;
     let m = place.rows();
     vec3(row(&m[0]), row(&m[1]), row(&m[2])) + abs(p)
 }
 
-fn shading_normal(mesh: &Mesh, place: &Transform, index: usize, weights: [f64; 3], ng: Vec3<f32>) -> Vec3<f32> {
+fn shading_normal(mesh: &Mesh, place: Option<&Transform>, index: usize, weights: [f32; 3], ng: Vec3<f32>) -> Vec3<f32> {
     if mesh.normals().is_empty() {
         return ng;
     }
-    let n = mesh.triangles()[index].map(|i| widen(mesh.normals()[i as usize]));
+    let n = mesh.triangles()[index].map(|i| mesh.normals()[i as usize]);
     let sum = n[0] * weights[0] + n[1] * weights[1] + n[2] * weights[2];
-    let ns = narrow(place.normal_f64(sum).normalize());
+    let ns = place.map_or_else(|| sum.normalize(), |place| place.normal(sum));
     // normals that cancel, or that a coarse mesh bends beyond the horizon, are no use for shading
     if ns.dot(ng) > 1e-4 { ns } else { ng }
 }

@@ -1,5 +1,7 @@
-//! From primitives to the eight-wide tree: a binary tree by PLOC with reinsertion (crate `obvhs`), collapsed.
+//! From primitives to the eight-wide tree: a binary tree by PLOC with reinsertion (crate `obvhs`), collapsed as `plan`
+//! finds best.
 
+use super::plan::{MOST_BLOCKS, Plan, plans};
 use super::tree::{Child, LANES, MAX_DEPTH, Node, Tree};
 use super::triangle::Block;
 use crate::bounds::Bounds;
@@ -78,8 +80,7 @@ fn binary_tree(items: &impl Items) -> Bvh2 {
 struct Collapse<'a, I> {
     binary: &'a Bvh2,
     items: &'a I,
-    /// Primitives below each binary node, saturated.
-    counts: Vec<u8>,
+    plans: Vec<Plan>,
     tree: Tree,
 }
 
@@ -93,15 +94,15 @@ impl<'a, I: Items> Collapse<'a, I> {
     fn new(binary: &'a Bvh2, items: &'a I) -> Self {
         let root = bounds_of(binary, 0);
         let mut c = Collapse {
-            counts: count_primitives(binary),
+            plans: plans(binary, items),
             binary,
             items,
             tree: Tree { nodes: vec![], blocks: vec![], bounds: root, reach: root.reach() },
         };
-        // exact, because growing a vector of this size would double the peak of memory
-        let blocks = c.count_blocks() + LANES * items.other_count();
+        // exact, because growing vectors of this size would double the peak of memory
+        let (nodes, blocks) = c.count();
         c.tree.blocks.reserve_exact(blocks);
-        c.tree.nodes.reserve(blocks / 6 + 1);
+        c.tree.nodes.reserve_exact(nodes);
         c
     }
 
@@ -110,40 +111,42 @@ impl<'a, I: Items> Collapse<'a, I> {
         self.tree
     }
 
-    /// Whether a binary node becomes a leaf.
-    fn is_small(&self, node: u32) -> bool {
-        self.binary.nodes[node as usize].is_leaf() || self.counts[node as usize] as usize <= LANES
-    }
-
-    /// An upper bound of the number of blocks: what the small nodes below the root need.
-    fn count_blocks(&self) -> usize {
-        let mut blocks = 0;
+    /// Nodes and blocks that following the plans takes; cutting a deep tree into parts may take more.
+    fn count(&self) -> (usize, usize) {
+        let (mut nodes, mut blocks) = (0, 0);
         let mut stack = vec![0u32];
+        let mut children = Vec::new();
         while let Some(node) = stack.pop() {
-            if self.is_small(node) {
-                blocks += (self.counts[node as usize] as usize).div_ceil(LANES);
-            } else {
-                let first = self.binary.nodes[node as usize].first_index;
-                stack.extend([first, first + 1]);
+            nodes += 1;
+            children.clear();
+            self.gather(node, 8, &mut children);
+            for &child in &children {
+                match self.plans[child as usize].leaf_blocks() {
+                    Some(count) => blocks += count,
+                    None => stack.push(child),
+                }
             }
         }
-        blocks
+        (nodes, blocks)
     }
 
-    /// Up to eight descendants of a binary node, opening the one of largest area until there are enough.
-    fn nodes_of(&self, node: u32) -> Vec<Part> {
-        let mut open = vec![node];
-        while open.len() < 8 {
-            let area = |n: u32| self.binary.nodes[n as usize].aabb().half_area();
-            let largest = (0..open.len())
-                .filter(|&k| !self.is_small(open[k]))
-                .max_by(|&a, &b| area(open[a]).total_cmp(&area(open[b])));
-            let Some(k) = largest else { break };
-            let first = self.binary.nodes[open[k] as usize].first_index;
-            open[k] = first;
-            open.push(first + 1);
+    /// Collects the roots of at most `most` subtrees that together are the binary node.
+    fn gather(&self, node: u32, most: usize, out: &mut Vec<u32>) {
+        let share = if most == 1 { 0 } else { self.plans[node as usize].first_share(most) };
+        if share == 0 {
+            out.push(node);
+            return;
         }
-        open.into_iter().map(Part::Binary).collect()
+        let first = self.binary.nodes[node as usize].first_index;
+        self.gather(first, share, out);
+        self.gather(first + 1, most - share, out);
+    }
+
+    /// The children of the wide node that a binary node becomes.
+    fn nodes_of(&self, node: u32) -> Vec<Part> {
+        let mut children = Vec::with_capacity(8);
+        self.gather(node, 8, &mut children);
+        children.into_iter().map(Part::Binary).collect()
     }
 
     /// The items below a binary node.
@@ -168,12 +171,11 @@ impl<'a, I: Items> Collapse<'a, I> {
             let (bounds, child) = match part {
                 &Part::Binary(node) => {
                     let bounds = bounds_of(self.binary, node);
-                    let child = if self.is_small(node) {
+                    let is_leaf = self.plans[node as usize].leaf_blocks().is_some();
+                    let child = if is_leaf || depth + 12 >= MAX_DEPTH {
                         self.leaf(&self.items_of(node), depth)
-                    } else if depth + 12 < MAX_DEPTH {
-                        self.inner(&self.nodes_of(node), depth)
                     } else {
-                        self.leaf(&self.items_of(node), depth)
+                        self.inner(&self.nodes_of(node), depth)
                     };
                     (bounds, child)
                 }
@@ -193,7 +195,7 @@ impl<'a, I: Items> Collapse<'a, I> {
     /// A leaf where the items fit into one, else a node over equal parts of them.
     fn leaf(&mut self, items: &[u32], depth: usize) -> Child {
         let others = items.iter().filter(|&&i| matches!(self.items.item(i), Item::Other(..))).count();
-        if others == 0 && items.len() <= 2 * LANES {
+        if others == 0 && items.len() <= MOST_BLOCKS * LANES {
             return self.blocks(items);
         }
         if let [only] = *items
@@ -231,24 +233,4 @@ impl<'a, I: Items> Collapse<'a, I> {
 fn bounds_of(binary: &Bvh2, node: u32) -> Bounds {
     let b = binary.nodes[node as usize].aabb();
     Bounds { min: b.min.to_array().into(), max: b.max.to_array().into() }
-}
-
-/// Primitives below every node, at most 255.
-fn count_primitives(binary: &Bvh2) -> Vec<u8> {
-    let mut counts = vec![0u8; binary.nodes.len()];
-    // a node is visited once on the way down and once, marked, on the way up
-    let mut stack = vec![(0u32, false)];
-    while let Some((k, summed)) = stack.pop() {
-        let n = &binary.nodes[k as usize];
-        counts[k as usize] = if n.is_leaf() {
-            n.prim_count.min(255) as u8
-        } else if summed {
-            let [a, b] = [n.first_index, n.first_index + 1].map(|c| counts[c as usize]);
-            a.saturating_add(b)
-        } else {
-            stack.extend([(k, true), (n.first_index, false), (n.first_index + 1, false)]);
-            continue;
-        };
-    }
-    counts
 }

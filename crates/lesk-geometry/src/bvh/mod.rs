@@ -4,6 +4,7 @@
 //! the world tree holds their instances. Spheres, disks and cylinders are met exactly.
 
 mod build;
+mod plan;
 mod simd;
 mod traverse;
 mod tree;

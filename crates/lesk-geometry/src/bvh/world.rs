@@ -41,6 +41,8 @@ pub struct WorldBuilder {
 #[derive(Clone, Copy, Debug)]
 struct Instance {
     geometry: u32,
+    /// Whether `place` is not the identity.
+    moved: bool,
     place: Transform,
 }
 
@@ -79,7 +81,8 @@ impl WorldBuilder {
         if number >= super::tree::Child::LIMIT {
             return Err(Error::new(format!("scene has more than {number} instances")));
         }
-        self.instances.push(Instance { geometry, place: world_from_local });
+        let moved = world_from_local != Transform::IDENTITY;
+        self.instances.push(Instance { geometry, moved, place: world_from_local });
         Ok(number as u32)
     }
 
@@ -277,7 +280,7 @@ impl World {
     /// The surface where `hit`, found along `ray`, lies.
     pub fn surface(&self, ray: &Ray, hit: &Hit) -> Surface {
         let instance = &self.instances[hit.instance as usize];
-        surface_at(&self.geometries[instance.geometry as usize], &instance.place, ray, hit)
+        surface_at(&self.geometries[instance.geometry as usize], &instance.place, instance.moved, ray, hit)
     }
 
     /// Prepares choosing points on an instance, as for an area light.
