@@ -10,6 +10,8 @@ use crate::ImageError;
 pub struct Distribution1D {
     /// Sums of the weights from the left over the whole: n + 1 entries, first 0, last 1.
     cdf: Vec<f64>,
+    /// A power of two plus one entries: where the search for u in i / guides .. (i + 1) / guides begins and ends.
+    guide: Vec<u32>,
     mean: f64,
 }
 
@@ -30,14 +32,16 @@ impl Distribution1D {
             cdf.push(sum);
         }
         let n = cdf.len() - 1;
-        if n == 0 {
-            return Err(ImageError::invalid("no weights, but at least one is needed"));
+        if n == 0 || n > u32::MAX as usize {
+            return Err(ImageError::invalid(format!("{n} weights, but 1 to {} are accepted", u32::MAX)));
         }
         let sum = cdf[n];
         for (i, entry) in cdf.iter_mut().enumerate() {
             *entry = if sum > 0.0 { *entry / sum } else { i as f64 / n as f64 };
         }
-        Ok(Distribution1D { cdf, mean: sum / n as f64 })
+        let guides = n.next_power_of_two();
+        let guide = (0..=guides).map(|i| cell_of(&cdf, i as f64 / guides as f64, 0, n - 1) as u32).collect();
+        Ok(Distribution1D { cdf, guide, mean: sum / n as f64 })
     }
 
     /// The number of cells.
@@ -65,7 +69,9 @@ impl Distribution1D {
 
     /// The cell of a uniform number `u` in 0..1, and the number stretched within the cell to 0..1, for another use.
     pub fn sample_cell(&self, u: f64) -> (usize, f64) {
-        let cell = cell_of(&self.cdf, u, 0, self.len() - 1);
+        let guides = self.guide.len() - 1;
+        let i = ((u * guides as f64) as usize).min(guides - 1);
+        let cell = cell_of(&self.cdf, u, self.guide[i] as usize, self.guide[i + 1] as usize);
         let rest = (u - self.cdf[cell]) / self.probability(cell).max(f64::MIN_POSITIVE);
         (cell, rest.clamp(0.0, 1.0 - f64::EPSILON / 2.0))
     }

@@ -188,13 +188,14 @@ impl Texture {
         let (x, y) = (place(u, self.width), place(1.0 - v, self.height));
         let mut out = [0.0; 4];
         if self.interpolation == Interpolation::Nearest {
-            let at = self.row(y.floor() as i32) + self.column(x.floor() as i32);
+            let at = self.row(floor(y)) + self.column(floor(x));
             out[..N].copy_from_slice(&self.data[at * N..][..N]);
             return out;
         }
         let (x, y) = (x - 0.5, y - 0.5);
-        let (tx, ty) = (x - x.floor(), y - y.floor());
-        let (x, y) = (x.floor() as i32, y.floor() as i32);
+        let (left, top) = (floor(x), floor(y));
+        let (tx, ty) = (x - left as f32, y - top as f32);
+        let (x, y) = (left, top);
         let columns = [self.column(x), self.column(x + 1)];
         let rows = [self.row(y), self.row(y + 1)];
         let texel = |row: usize, column: usize| &self.data[(row + column) * N..][..N];
@@ -216,6 +217,13 @@ impl Texture {
     fn row(&self, y: i32) -> usize {
         wrapped(self.wrap[1], y, self.height) as usize * self.width as usize
     }
+}
+
+/// The largest integer that is not above `x`, |x| < 2^31. Without SSE4.1, `f32::floor` is a call of the C library.
+#[inline]
+fn floor(x: f32) -> i32 {
+    let toward_zero = x as i32;
+    toward_zero - i32::from(toward_zero as f32 > x)
 }
 
 /// The texel that stands for place `i` of a row of `size`.

@@ -5,7 +5,7 @@ use crate::sample::{LightSample, Target};
 use lesk_image::distribution::Distribution2D;
 use lesk_image::texture::{Interpolation, Role, Wrap};
 use lesk_image::{Image, Texture};
-use lesk_math::{CHANNELS, Channels, Color, Vec3, vec3};
+use lesk_math::{CHANNELS, Channels, Color, Real, Vec3, vec3};
 use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
 
@@ -30,7 +30,7 @@ pub struct Environment {
     /// cd/m² per unit of the picture.
     scale: Color<f32>,
     /// The directions of the right edge of the view, its middle and the zenith, for the middle of the picture.
-    axes: [Vec3<f64>; 3],
+    axes: [Vec3<f32>; 3],
     /// Mean luminance and horizontal illuminance of the picture, in its own unit.
     mean: f64,
     horizontal: f64,
@@ -126,33 +126,38 @@ impl Environment {
 
     /// Luminance in cd/m² seen in the unit direction `wi`.
     pub fn radiance(&self, wi: Vec3<f32>) -> Color<f32> {
-        self.look_up(self.place(wi))
+        self.look_up(self.place(wi).0)
     }
 
-    fn look_up(&self, [x, y]: [f64; 2]) -> Color<f32> {
-        rec709(self.texture.rgb([x as f32, (1.0 - y) as f32])) * self.scale
+    #[inline]
+    fn look_up(&self, [x, y]: [f32; 2]) -> Color<f32> {
+        rec709(self.texture.rgb([x, 1.0 - y])) * self.scale
     }
 
-    /// The place in the picture, from its upper left corner, of a direction.
-    fn place(&self, wi: Vec3<f32>) -> [f64; 2] {
-        let w = wi.map(f64::from);
-        let [right, forward, up] = self.axes.map(|axis| w.dot(axis));
-        let x = 0.5 + right.atan2(forward) / TAU;
-        let y = right.hypot(forward).atan2(up) / PI;
-        let below_one = |v: f64| v.clamp(0.0, 1.0 - f64::EPSILON / 2.0);
-        [below_one(x - x.floor()), below_one(y)]
+    /// The place in the picture, from its upper left corner, of a direction, and the sine of its angle to the zenith.
+    #[inline]
+    fn place(&self, wi: Vec3<f32>) -> ([f32; 2], f32) {
+        let [right, forward, up] = self.axes.map(|axis| wi.dot(axis));
+        let sin_theta = (right * right + forward * forward).sqrt();
+        let x = 0.5 + Real::atan2(right, forward) * (1.0 / TAU as f32);
+        let y = Real::atan2(sin_theta, up) * (1.0 / PI as f32);
+        let below_one = |v: f32| v.clamp(0.0, 1.0 - f32::EPSILON / 2.0);
+        // the left border is the right one
+        ([if x >= 1.0 { 0.0 } else { below_one(x) }, below_one(y)], sin_theta)
     }
 
     pub(crate) fn sample(&self, u: [f32; 2]) -> Option<LightSample> {
-        let ([x, y], density) = self.distribution.sample(u.map(f64::from));
-        let (sin_theta, cos_theta) = (PI * y).sin_cos();
-        let (sin_turn, cos_turn) = (TAU * (x - 0.5)).sin_cos();
+        let (at, density) = self.distribution.sample(u.map(f64::from));
+        let [x, y] = at.map(|v| v as f32);
+        let (theta, turn) = (PI as f32 * y, TAU as f32 * (x - 0.5));
+        let sin_theta = Real::sin(theta);
         let [right, forward, up] = self.axes;
-        let wi = right * (sin_theta * sin_turn) + forward * (sin_theta * cos_turn) + up * cos_theta;
-        let pdf = (density / (TAU * PI * sin_theta)) as f32;
+        let (across, along) = (sin_theta * Real::sin(turn), sin_theta * Real::cos(turn));
+        let wi = right * across + forward * along + up * Real::cos(theta);
+        let pdf = (density / (TAU * PI * f64::from(sin_theta))) as f32;
         let value = self.look_up([x, y]);
         (pdf > 0.0 && pdf.is_finite() && value.max_component() > 0.0).then_some(LightSample {
-            wi: wi.map(|v| v as f32),
+            wi: wi.normalize(),
             distance: f32::INFINITY,
             value,
             pdf,
@@ -164,9 +169,14 @@ impl Environment {
 
     /// Density of [`sample`](Self::sample), 1/sr.
     pub(crate) fn pdf(&self, wi: Vec3<f32>) -> f32 {
-        let [x, y] = self.place(wi);
-        let pdf = (self.distribution.pdf([x, y]) / (TAU * PI * (PI * y).sin())) as f32;
-        if pdf.is_finite() { pdf } else { 0.0 }
+        self.seen(wi).1
+    }
+
+    /// Luminance seen in the unit direction `wi`, and the density of [`sample`](Self::sample) there.
+    pub(crate) fn seen(&self, wi: Vec3<f32>) -> (Color<f32>, f32) {
+        let (at, sin_theta) = self.place(wi);
+        let pdf = (self.distribution.pdf(at.map(f64::from)) / (TAU * PI * f64::from(sin_theta))) as f32;
+        (self.look_up(at), if pdf.is_finite() { pdf } else { 0.0 })
     }
 }
 
@@ -178,13 +188,13 @@ pub fn rec709(rgb: [f32; 3]) -> Color<f32> {
 }
 
 /// Right, forward and up in the world.
-fn axes(up: Up, rotation: f64) -> [Vec3<f64>; 3] {
-    let (s, c) = rotation.sin_cos();
+fn axes(up: Up, rotation: f64) -> [Vec3<f32>; 3] {
+    let (s, c) = f64::sin_cos(rotation);
     let (right, forward, zenith) = match up {
         Up::Z => (vec3(1.0, 0.0, 0.0), vec3(0.0, 1.0, 0.0), vec3(0.0, 0.0, 1.0)),
         Up::Y => (vec3(1.0, 0.0, 0.0), vec3(0.0, 0.0, -1.0), vec3(0.0, 1.0, 0.0)),
     };
-    [right * c + forward * s, forward * c - right * s, zenith]
+    [right * c + forward * s, forward * c - right * s, zenith].map(|axis: Vec3<f64>| axis.map(|v| v as f32))
 }
 
 fn texel_luminance(texture: &Texture) -> Vec<f32> {

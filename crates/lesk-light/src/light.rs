@@ -93,6 +93,20 @@ impl Light {
         }
     }
 
+    /// Luminance in cd/m² that a ray in direction `wi` meets at infinity, and [`pdf_direction`](Self::pdf_direction).
+    pub(crate) fn seen(&self, at: &Receiver, wi: Vec3<f32>) -> (Color<f32>, f32) {
+        match self {
+            Light::Environment(light) => light.seen(wi),
+            Light::Sky(light) => (light.radiance(wi), light.pdf(at, wi)),
+            _ => (Color::BLACK, 0.0),
+        }
+    }
+
+    /// The most illuminance that a distant light can give, lx, positive: what enters a sphere over its cross-section.
+    pub(crate) fn distant_illuminance(&self) -> f32 {
+        (self.flux(1.0) / std::f32::consts::PI).clamp(f32::MIN_POSITIVE, f32::MAX)
+    }
+
     /// Luminance in cd/m² that leaves the surface in direction `w`; black for all but area lights.
     pub fn emitted(&self, surface: &Surface, w: Vec3<f32>) -> Color<f32> {
         match self {

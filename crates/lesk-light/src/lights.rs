@@ -9,8 +9,9 @@ use lesk_math::{Color, Vec3};
 
 /// The lights of a scene. Light `i` is the one at position `i` of the list given to [`Lights::new`].
 ///
-/// One light is chosen per sample: each distant light with equal probability, and all others through a
-/// [`LightTree`] that counts as one more.
+/// One light is chosen per sample, in proportion to the illuminance that it is expected to give: of distant lights the
+/// most that they can give, of all others together what the root of their [`LightTree`] estimates for the receiver. A
+/// quarter of the choices is dealt out evenly, because estimates do not know what stands in the light.
 #[derive(Clone, Debug, Default)]
 pub struct Lights {
     list: Vec<Light>,
@@ -20,7 +21,14 @@ pub struct Lights {
     parts: Vec<(u32, u32)>,
     tree: LightTree,
     infinite: Vec<u32>,
+    /// The place in `infinite` of each light that is there, and for each such place the sum of illuminances up to it, lx.
+    rank: Vec<u32>,
+    sums: Vec<f64>,
 }
+
+/// The share of choices between distant lights and the tree of the others that does not depend on their strength: a weak
+/// light that alone is in sight is still chosen with a quarter of its even probability.
+const EVEN_SHARE: f64 = 0.25;
 
 impl Lights {
     /// Prepares choosing.
@@ -39,8 +47,11 @@ impl Lights {
             lights.first_part.push(bounds.len() as u32);
             lights.parts.extend((0..own.len() as u32).map(|part| (i as u32, part)));
             bounds.extend(own);
+            lights.rank.push(lights.infinite.len() as u32);
             if light.is_infinite() {
                 lights.infinite.push(i as u32);
+                let before = lights.sums.last().copied().unwrap_or(0.0);
+                lights.sums.push(before + f64::from(light.distant_illuminance()));
             }
         }
         lights.tree = LightTree::new(&bounds);
@@ -57,35 +68,80 @@ impl Lights {
         self.tree.is_empty() && self.infinite.is_empty()
     }
 
-    /// The probability of each distant light.
-    fn infinite_pmf(&self) -> f32 {
-        1.0 / (self.infinite.len() + usize::from(!self.tree.is_empty())).max(1) as f32
+    /// The illuminance that the tree is expected to give, lx, and that together with distant lights.
+    #[inline]
+    fn expected(&self, at: &Receiver) -> (f64, f64) {
+        let near = f64::from(self.tree.illuminance(at).min(f32::MAX));
+        (near, near + self.sums.last().copied().unwrap_or(0.0))
+    }
+
+    /// The probability of something that is expected to give `lux` of `all`, one of `count`.
+    #[inline]
+    fn share(lux: f64, all: f64, count: usize) -> f64 {
+        EVEN_SHARE / count as f64 + (1.0 - EVEN_SHARE) * lux / all
+    }
+
+    /// The probability of the distant light of this rank.
+    #[inline]
+    fn infinite_pmf(&self, at: &Receiver, rank: usize) -> f32 {
+        let (near, all) = self.expected(at);
+        let before = if rank == 0 { 0.0 } else { self.sums[rank - 1] };
+        let count = self.infinite.len() + usize::from(near > 0.0);
+        Self::share(self.sums[rank] - before, all, count) as f32
+    }
+
+    /// The probability of the tree of all other lights.
+    #[inline]
+    fn tree_pmf(&self, at: &Receiver) -> f32 {
+        if self.infinite.is_empty() {
+            return 1.0;
+        }
+        let (near, all) = self.expected(at);
+        if near > 0.0 { Self::share(near, all, self.infinite.len() + 1) as f32 } else { 0.0 }
     }
 
     /// Chooses a light with `u` in [0, 1): its number, its part (the triangle of a mesh, else 0) and the probability.
     /// `None` where no light arrives.
     pub fn choose(&self, at: &Receiver, u: f32) -> Option<(u32, u32, f32)> {
-        let pmf = self.infinite_pmf();
-        let scaled = f64::from(u) * (self.infinite.len() + usize::from(!self.tree.is_empty())) as f64;
-        if let Some(&light) = self.infinite.get(scaled as usize) {
-            return Some((light, 0, pmf));
+        let tree_pmf = self.tree_pmf(at);
+        let u = f64::from(u);
+        let wide = f64::from(tree_pmf);
+        if u < wide {
+            let (leaf, leaf_pmf) = self.tree.sample(at, u / wide)?;
+            let (light, part) = self.parts[leaf as usize];
+            return Some((light, part, tree_pmf * leaf_pmf));
         }
-        let rest = (scaled - self.infinite.len() as f64).clamp(0.0, 1.0 - f64::EPSILON);
-        let (leaf, leaf_pmf) = self.tree.sample(at, rest)?;
-        let (light, part) = self.parts[leaf as usize];
-        Some((light, part, pmf * leaf_pmf))
+        let rank = self.choose_infinite((u - wide) / (1.0 - wide), wide)?;
+        Some((self.infinite[rank], 0, self.infinite_pmf(at, rank)))
+    }
+
+    /// The rank of a distant light for `u` in [0, 1), where the tree has the probability `tree_pmf`.
+    fn choose_infinite(&self, u: f64, tree_pmf: f64) -> Option<usize> {
+        let (count, all) = (self.infinite.len(), *self.sums.last()?);
+        if count == 1 {
+            return Some(0);
+        }
+        // of all distant lights together, this much is dealt out evenly
+        let even = EVEN_SHARE * count as f64 / (count + usize::from(tree_pmf > 0.0)) as f64 / (1.0 - tree_pmf);
+        let rank = if u < even {
+            (u / even * count as f64) as usize
+        } else {
+            let lux = (u - even) / (1.0 - even) * all;
+            self.sums.partition_point(|&sum| sum <= lux)
+        };
+        Some(rank.min(count - 1))
     }
 
     /// The probability with which [`choose`](Self::choose) gives a part of a light.
     pub fn pmf(&self, at: &Receiver, light: u32, part: u32) -> f32 {
         let Some(known) = self.list.get(light as usize) else { return 0.0 };
         if known.is_infinite() {
-            return if part == 0 { self.infinite_pmf() } else { 0.0 };
+            return if part == 0 { self.infinite_pmf(at, self.rank[light as usize] as usize) } else { 0.0 };
         }
         if part >= self.part_count(light) {
             return 0.0;
         }
-        self.infinite_pmf() * self.tree.pmf(at, self.first_part[light as usize] + part)
+        self.tree_pmf(at) * self.tree.pmf(at, self.first_part[light as usize] + part)
     }
 
     /// How many parts a light has: the triangles of a mesh, else 1.
@@ -123,10 +179,9 @@ impl Lights {
     /// For a ray that left the scene in direction `wi`: the luminance of every distant light in cd/m², with the density
     /// of [`sample`](Self::sample) for it in 1/sr. Parallel light is not met this way.
     pub fn escaped(&self, at: &Receiver, wi: Vec3<f32>) -> impl Iterator<Item = (Color<f32>, f32)> {
-        let pmf = self.infinite_pmf();
-        self.infinite.iter().map(move |&i| {
-            let light = &self.list[i as usize];
-            (light.background(wi), pmf * light.pdf_direction(at, wi))
+        self.infinite.iter().enumerate().map(move |(rank, &i)| {
+            let (value, pdf) = self.list[i as usize].seen(at, wi);
+            (value, if pdf > 0.0 { self.infinite_pmf(at, rank) * pdf } else { 0.0 })
         })
     }
 

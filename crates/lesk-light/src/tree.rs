@@ -50,6 +50,12 @@ impl LightTree {
         self.nodes.is_empty()
     }
 
+    /// An estimate of the illuminance by all lights at the receiver, lx; 0 only where none arrives.
+    #[inline]
+    pub fn illuminance(&self, receiver: &Receiver) -> f32 {
+        self.nodes.first().map_or(0.0, |root| root.bounds.importance(receiver))
+    }
+
     fn build(&mut self, lights: &[LightBounds], order: &mut [u32], way: u64, depth: u32) -> LightBounds {
         let at = self.nodes.len();
         if let [single] = *order {

@@ -3,9 +3,15 @@
 use lesk_geometry::{Mesh, SurfaceSample, Transform};
 use lesk_math::Vec3;
 
-/// Solid angles between which a triangle is sampled by solid angle, sr. Below, the area density is as good and keeps
-/// more digits; above, the triangle nearly holds a hemisphere and the angles of its corners lose digits.
+/// Solid angles between which a triangle is sampled by solid angle, sr. Below, it is seen edge-on and the area density
+/// keeps more digits; above, the triangle nearly holds a hemisphere and the angles of its corners lose digits.
 const SEEN_LARGE: std::ops::Range<f64> = 1e-3..6.2;
+
+/// A triangle whose area over the square of its least possible distance is smaller, in sr, is sampled by area, without the
+/// seven trigonometric functions of the solid angle. The distance to points of a compact triangle then differs by at most
+/// a quarter from that to its centre, and the estimate of unoccluded light scatters by 0.15 of its mean: two hundredths
+/// of variance, where penumbrae and indirect light add tenths.
+const SEEN_SMALL: f32 = 0.15;
 
 /// A triangle in the world.
 #[derive(Clone, Debug)]
@@ -15,6 +21,9 @@ pub(crate) struct Triangle {
     n: Vec3<f32>,
     area: f32,
     lift: f32,
+    center: Vec3<f32>,
+    /// Square of the distance from the centre beyond which the triangle is seen small.
+    far_square: f32,
 }
 
 impl Triangle {
@@ -27,11 +36,16 @@ impl Triangle {
         let length = double.length();
         let n = narrow(double * (place.determinant().signum() / length));
         let area = (0.5 * length) as f32;
+        let center = (a + b + c) / 3.0;
+        let radius = [a, b, c].map(|v| (v - center).length()).into_iter().fold(0.0, f64::max);
+        let far = radius as f32 + (area / SEEN_SMALL).sqrt();
         (area > 0.0 && area.is_finite() && n.to_array().iter().all(|x| x.is_finite())).then(|| Triangle {
             corners,
             n,
             area,
             lift: lift(place, &local, &corners),
+            center: narrow(center),
+            far_square: far * far,
         })
     }
 
@@ -50,19 +64,18 @@ impl Triangle {
 
     /// A point for the receiver at `x`; its `pdf` is per steradian. `uv` holds the weights of the second and third corner.
     pub fn sample_from(&self, x: Vec3<f32>, prim: u32, u: [f32; 2]) -> Option<SurfaceSample> {
-        let u = u.map(f64::from);
         let seen = self.seen(x);
         let weights = match &seen {
-            Some(seen) => self.weights_toward(widen(x), seen.sample(u)?),
+            Some(seen) => self.weights_toward(widen(x), seen.sample(u.map(f64::from))?).map(|w| w as f32),
             None => by_area(u),
         };
-        let [a, b, c] = self.corners.map(widen);
-        let p = narrow(a * weights[0] + b * weights[1] + c * weights[2]);
+        let [a, b, c] = self.corners;
+        let p = a * weights[0] + b * weights[1] + c * weights[2];
         let pdf = match seen {
             Some(seen) => (1.0 / seen.solid_angle) as f32,
             None => self.area_pdf(x, p),
         };
-        let uv = [weights[1] as f32, weights[2] as f32];
+        let uv = [weights[1], weights[2]];
         (pdf > 0.0 && pdf.is_finite()).then_some(SurfaceSample { p, n: self.n, uv, prim, pdf, lift: self.lift })
     }
 
@@ -75,15 +88,23 @@ impl Triangle {
     }
 
     /// 1/area as a density over solid angle; 0 edge-on.
+    #[inline]
     fn area_pdf(&self, x: Vec3<f32>, p: Vec3<f32>) -> f32 {
-        let to = widen(p) - widen(x);
+        let to = p - x;
         let square = to.length_squared();
-        let cosine = to.dot(widen(self.n)).abs() / square.sqrt();
-        let pdf = (square / (cosine * f64::from(self.area))) as f32;
-        if cosine > 1e-9 && pdf.is_finite() { pdf } else { 0.0 }
+        let distance = square.sqrt();
+        let height = to.dot(self.n).abs();
+        let pdf = square * distance / (height * self.area);
+        if height > 1e-9 * distance && pdf.is_finite() { pdf } else { 0.0 }
     }
 
+    #[inline]
     fn seen(&self, x: Vec3<f32>) -> Option<SphericalTriangle> {
+        if (self.center - x).length_squared() > self.far_square { None } else { self.seen_near(x) }
+    }
+
+    #[inline(never)]
+    fn seen_near(&self, x: Vec3<f32>) -> Option<SphericalTriangle> {
         let x = widen(x);
         let [a, b, c] = self.corners.map(|v| (widen(v) - x).normalize());
         // Van Oosterom & Strackee, IEEE Trans. Biomed. Eng. 30, 1983
@@ -142,7 +163,8 @@ fn across(v: Vec3<f64>, axis: Vec3<f64>) -> Vec3<f64> {
 }
 
 /// Heitz, *A Low-Distortion Map Between Triangle and Square*, 2019: barycentric weights.
-fn by_area(u: [f64; 2]) -> [f64; 3] {
+#[inline]
+fn by_area(u: [f32; 2]) -> [f32; 3] {
     let (b, c) = if u[1] > u[0] { (0.5 * u[0], u[1] - 0.5 * u[0]) } else { (u[0] - 0.5 * u[1], 0.5 * u[1]) };
     [1.0 - b - c, b, c]
 }

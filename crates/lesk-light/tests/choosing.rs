@@ -1,7 +1,7 @@
 //! Choosing one of many lights: probabilities, and agreement of sampling and density.
 
 use lesk_geometry::{Geometry, Ray, Transform, WorldBuilder, icosphere};
-use lesk_light::{Area, Light, Lights, Point, Receiver, Sky, Spot};
+use lesk_light::{Area, Directional, Light, Lights, Point, Receiver, Sky, Spot};
 use lesk_math::{Color, Vec3, vec3};
 use proptest::prelude::*;
 use std::f64::consts::PI;
@@ -247,4 +247,38 @@ fn coinciding_lights_and_receivers_on_lights_do_not_break_the_tree() {
     assert!((sum - 1.0).abs() < 1e-5);
     assert!(lights.sample(&Receiver::opaque(Vec3::ZERO, Vec3::Z), 0.3, [0.5; 2]).is_none());
     assert!(Lights::new(vec![]).unwrap().sample(&at, 0.5, [0.5; 2]).is_none());
+}
+
+#[test]
+fn distant_lights_are_chosen_by_their_illuminance_but_for_an_even_quarter() {
+    // a sky of 1 cd/m2 can give at most 4π lx, a sun 999 times that: shares of 1 and 999 of 1000
+    let sky = Light::Sky(Sky::new(Color::WHITE).unwrap());
+    let sun = Light::Directional(Directional::new(-Vec3::Z, Color::splat(999.0 * 4.0 * PI as f32)).unwrap());
+    let lights = Lights::new(vec![sky, sun]).unwrap();
+    let at = Receiver::opaque(Vec3::ZERO, Vec3::Z);
+    let expected = [0.25 / 2.0 + 0.75 / 1000.0, 0.25 / 2.0 + 0.75 * 999.0 / 1000.0];
+    let n = 100_000;
+    let mut counts = [0u32; 2];
+    (0..n).filter_map(|i| lights.choose(&at, (i as f32 + 0.5) / n as f32)).for_each(|(l, ..)| counts[l as usize] += 1);
+    for (light, expected) in expected.into_iter().enumerate() {
+        assert!((lights.pmf(&at, light as u32, 0) - expected).abs() < 1e-6);
+        assert!((counts[light] as f32 / n as f32 - expected).abs() < 1e-4);
+    }
+}
+
+#[test]
+fn near_and_distant_lights_share_choices_by_what_they_give_here() {
+    let lamp = Light::Point(Point::new(vec3(0.0, 0.0, 1.0), Color::splat(4.0 * PI as f32)).unwrap());
+    let sky = Light::Sky(Sky::new(Color::WHITE).unwrap());
+    let lights = Lights::new(vec![sky, lamp]).unwrap();
+    // 4π cd at 1 m give 4π lx, which is the most that the sky can give; at 10 m they give a hundredth
+    for (height, share) in [(1.0, 0.5), (10.0, 1.0 / 101.0)] {
+        let at = Receiver::opaque(vec3(0.0, 0.0, 1.0 - height), Vec3::Z);
+        let (sky, lamp) = (lights.pmf(&at, 0, 0), lights.pmf(&at, 1, 0));
+        assert!((lamp - (0.125 + 0.75 * share)).abs() < 1e-5, "{height}: {lamp}");
+        assert!((sky + lamp - 1.0).abs() < 1e-6);
+    }
+    // below the horizon of the surface the lamp gives nothing, and takes no choices
+    let below = Receiver::opaque(Vec3::ZERO, -Vec3::Z);
+    assert_eq!((lights.pmf(&below, 0, 0), lights.pmf(&below, 1, 0)), (1.0, 0.0));
 }
