@@ -2,9 +2,10 @@
 
 use lesk_bsdf::Scatter;
 use lesk_bsdf::model::Domain;
+use lesk_bsdf::params::offset_of;
 use lesk_image::Texture;
 use lesk_image::texture::Channel;
-use lesk_math::CHANNELS;
+use lesk_math::{CHANNELS, Vec3};
 use std::fmt;
 use std::sync::Arc;
 
@@ -19,6 +20,11 @@ pub struct Material {
     constants: [f32; MAX_PARAMS],
     bindings: Vec<Binding>,
     two_sided: bool,
+    /// What the model says, looked up once.
+    domain: Domain,
+    count: usize,
+    ior: Option<usize>,
+    may_be_delta: bool,
 }
 
 /// A texture that gives one parameter.
@@ -68,7 +74,17 @@ impl Material {
         assert_eq!(constants.len(), model.param_count(), "model `{}`", model.id());
         let mut table = [0.0; MAX_PARAMS];
         table[..constants.len()].copy_from_slice(constants);
-        Material { name: name.into(), model, constants: table, bindings: Vec::new(), two_sided }
+        Material {
+            name: name.into(),
+            model,
+            constants: table,
+            bindings: Vec::new(),
+            two_sided,
+            domain: model.model().domain,
+            count: constants.len(),
+            ior: offset_of(model.specs(), "ior"),
+            may_be_delta: model.delta(constants, Vec3::Z).is_some(),
+        }
     }
 
     /// The same material with a texture for one parameter.
@@ -99,7 +115,25 @@ impl Material {
 
     /// Whether light may pass through the surface.
     pub fn transmits(&self) -> bool {
-        self.model.model().domain != Domain::Upper
+        self.domain != Domain::Upper
+    }
+
+    /// The directions that its model accepts.
+    #[inline]
+    pub fn domain(&self) -> Domain {
+        self.domain
+    }
+
+    /// The entry of the flat table that holds the refractive index `ior`, where the model has one.
+    #[inline]
+    pub fn ior_entry(&self) -> Option<usize> {
+        self.ior
+    }
+
+    /// Whether the model has delta lobes for light from the normal; without, it is not worth asking for them.
+    #[inline]
+    pub fn may_be_delta(&self) -> bool {
+        self.may_be_delta
     }
 
     /// The textures.
@@ -107,15 +141,18 @@ impl Material {
         &self.bindings
     }
 
-    /// The model's flat parameter table at the texture coordinates, written into `out`; the rest of `out` is left as it
-    /// is. The result is what `Scatter` takes.
+    /// The model's flat parameter table at the texture coordinates, as `Scatter` takes it: the constants themselves, or a
+    /// copy of them with what the textures say, written into `out`.
     #[inline]
-    pub fn params<'a>(&self, uv: [f32; 2], out: &'a mut [f32; MAX_PARAMS]) -> &'a [f32] {
+    pub fn params<'a>(&'a self, uv: [f32; 2], out: &'a mut [f32; MAX_PARAMS]) -> &'a [f32] {
+        if self.bindings.is_empty() {
+            return &self.constants[..self.count];
+        }
         *out = self.constants;
         for binding in &self.bindings {
             binding.read(uv, out);
         }
-        &out[..self.model.param_count()]
+        &out[..self.count]
     }
 }
 

@@ -51,15 +51,14 @@ struct Last {
 }
 
 /// A surface with its material, as seen from `wo`.
-struct Vertex {
+struct Vertex<'a> {
     surface: Surface,
-    material: u32,
+    number: u32,
+    material: &'a Material,
     model: &'static dyn Scatter,
-    params: [f32; MAX_PARAMS],
-    count: usize,
+    params: &'a [f32],
     frame: Frame<f32>,
     wo: Vec3<f32>,
-    domain: Domain,
 }
 
 /// Veach's power heuristic with exponent 2 (veach1997, section 9.2.4).
@@ -97,6 +96,7 @@ pub(crate) fn trace_from(
 
 impl<'a> Path<'a> {
     fn run(&mut self, mut ray: Ray, mut last: Last, sampler: &mut Sampler) {
+        let mut table = [0.0; MAX_PARAMS];
         for bounce in 0.. {
             let Some(hit) = self.scene.world.intersect(&ray) else {
                 self.add_background(ray.d, &last);
@@ -104,19 +104,23 @@ impl<'a> Path<'a> {
             };
             let surface = self.scene.world.surface(&ray, &hit);
             self.add_emission(&surface, -ray.d, &last);
-            let [u_light, u_x, u_y, u_roulette] = sampler.next4d();
-            let u = sampler.next3d();
-            let Some(vertex) = Vertex::new(self.scene, surface, -ray.d) else { return };
-            if bounce >= self.limits.max_depth {
-                self.record_first(bounce, &vertex, Color::BLACK, ray.d, hit.t);
+            let is_last = bounce >= self.limits.max_depth;
+            if is_last && bounce > 0 {
                 return;
             }
-            self.add_light(&vertex, u_light, [u_x, u_y]);
-            let Some((wi, weight, pdf, delta)) = vertex.draw(u) else {
-                self.record_first(bounce, &vertex, Color::BLACK, ray.d, hit.t);
+            let Some(vertex) = Vertex::new(self.scene, surface, -ray.d, &mut table) else { return };
+            if is_last {
+                self.record_first(&vertex, Color::BLACK, ray.d, hit.t);
                 return;
-            };
-            self.record_first(bounce, &vertex, weight, ray.d, hit.t);
+            }
+            let [u_light, u_x, u_y, u_roulette] = sampler.next4d();
+            self.add_light(&vertex, u_light, [u_x, u_y]);
+            let drawn = vertex.draw(sampler.next3d());
+            if bounce == 0 {
+                let weight = drawn.map_or(Color::BLACK, |(_, weight, ..)| weight);
+                self.record_first(&vertex, weight, ray.d, hit.t);
+            }
+            let Some((wi, weight, pdf, delta)) = drawn else { return };
             self.throughput = self.throughput * weight;
             self.eta_scale *= vertex.eta_scale(wi);
             self.kind = self.kind.then(delta);
@@ -192,10 +196,7 @@ impl<'a> Path<'a> {
         true
     }
 
-    fn record_first(&mut self, bounce: u32, vertex: &Vertex, weight: Color<f32>, d: Vec3<f32>, t: f32) {
-        if bounce > 0 {
-            return;
-        }
+    fn record_first(&mut self, vertex: &Vertex, weight: Color<f32>, d: Vec3<f32>, t: f32) {
         // the mean weight of a draw is the directional albedo
         let albedo = std::array::from_fn(|c| weight.0[c.min(lesk_math::CHANNELS - 1)]);
         self.found.aov = Some(Aov {
@@ -203,20 +204,23 @@ impl<'a> Path<'a> {
             normal: vertex.frame.n.to_array(),
             depth: t * d.length(),
             object: vertex.surface.instance + 1,
-            material: vertex.material + 1,
+            material: vertex.number + 1,
         });
     }
 }
 
-impl Vertex {
+impl<'a> Vertex<'a> {
     /// `None` where the surface scatters nothing towards `wo`: without a material, or the back of a one-sided one.
-    fn new(scene: &Scene, mut surface: Surface, wo: Vec3<f32>) -> Option<Vertex> {
+    #[inline]
+    fn new(
+        scene: &'a Scene,
+        mut surface: Surface,
+        wo: Vec3<f32>,
+        table: &'a mut [f32; MAX_PARAMS],
+    ) -> Option<Vertex<'a>> {
         let number = scene.object(&surface).material?;
         let material: &Material = &scene.materials[number as usize];
-        let model = material.model();
-        let domain = model.model().domain;
-        let behind = surface.ng.dot(wo) < 0.0;
-        if domain == Domain::Upper && behind {
+        if surface.ng.dot(wo) < 0.0 && material.domain() == Domain::Upper {
             if !material.two_sided() {
                 return None;
             }
@@ -228,26 +232,26 @@ impl Vertex {
             surface.ns = surface.ng;
         }
         let frame = surface.frame();
-        let mut params = [0.0; MAX_PARAMS];
-        let count = material.params(surface.uv, &mut params).len();
+        let params = material.params(surface.uv, table);
         let wo = frame.local_from_world(wo);
-        Some(Vertex { surface, material: number, model, params, count, frame, wo, domain })
+        Some(Vertex { surface, number, material, model: material.model(), params, frame, wo })
     }
 
-    fn params(&self) -> &[f32] {
-        &self.params[..self.count]
-    }
-
+    #[inline]
     fn receiver(&self) -> Receiver {
-        match self.domain {
+        match self.material.domain() {
             Domain::Upper => Receiver::opaque(self.surface.p, self.surface.ng),
             Domain::BothSides | Domain::Sphere => Receiver::anywhere(self.surface.p),
         }
     }
 
     /// Models that scatter by delta lobes alone ask no light.
+    #[inline]
     fn has_continuous_part(&self) -> bool {
-        match self.model.delta(self.params(), self.wo) {
+        if !self.material.may_be_delta() {
+            return true;
+        }
+        match self.model.delta(self.params, self.wo) {
             Some([a, b]) => a.probability + b.probability < 1.0,
             None => true,
         }
@@ -264,23 +268,23 @@ impl Vertex {
         if !self.agrees(wi, local) {
             return None;
         }
-        let (f, pdf) = self.model.eval_pdf(self.params(), local, self.wo);
+        let (f, pdf) = self.model.eval_pdf(self.params, local, self.wo);
         Some((f * local.z.abs(), pdf))
     }
 
     /// Direction, weight, density, and whether a delta lobe was taken.
     fn draw(&self, u: [f32; 3]) -> Option<(Vec3<f32>, Color<f32>, f32, bool)> {
-        let sample = self.model.draw(self.params(), self.wo, u);
+        let sample = self.model.draw(self.params, self.wo, u);
         let wi = self.frame.world_from_local(sample.wi);
         (sample.pdf > 0.0 && self.agrees(wi, sample.wi)).then_some((wi, sample.weight, sample.pdf, sample.delta > 0.5))
     }
 
     /// What a transmission into `wi` did to radiance, to be undone for the roulette: 1 for reflection.
     fn eta_scale(&self, wi: Vec3<f32>) -> f32 {
-        if self.domain != Domain::BothSides || self.frame.n.dot(wi) * self.wo.z > 0.0 {
+        if self.material.domain() != Domain::BothSides || self.frame.n.dot(wi) * self.wo.z > 0.0 {
             return 1.0;
         }
-        let Some(ior) = lesk_bsdf::params::offset_of(self.model.specs(), "ior") else { return 1.0 };
+        let Some(ior) = self.material.ior_entry() else { return 1.0 };
         let eta = if self.wo.z > 0.0 { self.params[ior] } else { 1.0 / self.params[ior] };
         eta * eta
     }
