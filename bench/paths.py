@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-from scenes import SCENES, Scene
+from scenes import SCENES, Scene, many_lights
 from table import Row, Table
 from timing import clock
 
@@ -123,8 +123,31 @@ def add_rows(table: Table, name: str, scene: Scene, ours: Measured, theirs: Meas
     table.add(row)
 
 
+def ten_times_the_lights(size: int, spp: int, seeds: int) -> Table:
+    """Lesk alone: what ten times as many lights cost at equal error."""
+    table = Table("Ten times as many lights, Lesk alone", "1,000 lights")
+    names = (1000, 10_000)
+    with tempfile.TemporaryDirectory() as folder:
+        renders = []
+        for count in names:
+            inner = Path(folder) / str(count)
+            inner.mkdir()
+            renders.append(lesk_render(many_lights(count), inner, size, spp))
+        done: tuple[list, list] = ([], [])
+        for seed in range(max(seeds, 3)):
+            for runs, render in zip(done, renders, strict=True):
+                runs.append(render(seed))
+    few, many = (Measured.of(*map(list, zip(*runs, strict=True)), spp) for runs in done)
+    ratio = few.to_target / many.to_target
+    row = Row("10,000 lights, s to relMSE99 1e-2", f"{many.to_target:.2f}", f"{few.to_target:.2f}", ratio)
+    row.must, row.aim = 1 / 1.6, 1 / 1.2
+    row.note = f"relMSE99 x spp {many.cost:.2f} and {few.cost:.2f}"
+    table.add(row)
+    return table
+
+
 def run(quick: bool) -> list[Table]:
-    """A table against Mitsuba, and one against Cycles where bpy is installed."""
+    """A table against Mitsuba, one against Cycles where bpy is installed, and one of many lights."""
     from mitsuba_side import VARIANT
 
     size, spp, seeds = (256, 16, 2) if quick else (512, 32, 3)
@@ -137,4 +160,5 @@ def run(quick: bool) -> list[Table]:
         add_rows(first, name, scene, ours, mitsuba)
         if blender := cycles(name, size, spp, seeds):
             add_rows(second, name, scene, ours, blender)
-    return [first, second] if second.rows else [first]
+    third = ten_times_the_lights(size, spp, seeds)
+    return [first, second, third] if second.rows else [first, third]

@@ -21,8 +21,11 @@ SECTIONS = {
     "batch": "models through NumPy",
     "rays": "single rays",
     "paths": "path tracing",
+SECTIONS = {
     "lux": "measuring an office",
     "raster": "rasterising",
+    "memory": "ten million triangles",
+}
 }
 
 

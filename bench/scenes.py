@@ -121,8 +121,11 @@ def glossy() -> Scene:
 
 
 def many_lights(count: int = 1000) -> Scene:
-    """A thousand squares of 2 cm that shine downward, and twelve balls."""
-    rng = np.random.default_rng(2)
+    """Squares of 2 cm that shine downward, as bright together as a thousand, and twelve balls."""
+    # the balls stay where they are, whatever the number of lights
+    rng, balls = np.random.default_rng(2), np.random.default_rng(2)
+    balls.uniform(size=3 * 1000)
+    strength = 1000 / count
     quads = [
         quad((rng.uniform(-4, 4), rng.uniform(0.02, 0.5), rng.uniform(-4, 4)), (0.01, 0, 0), (0, 0, 0.01))
         for _ in range(count)
@@ -131,11 +134,11 @@ def many_lights(count: int = 1000) -> Scene:
     triangles = np.concatenate([f + 4 * k for k, (_, f) in enumerate(quads)])
     objects: list[Object] = [
         ("ground", *GROUND, None, ("diffuse", (0.6, 0.6, 0.6))),
-        ("lights", positions, triangles, None, ("emit", (60.0, 50.0, 40.0))),
+        ("lights", positions, triangles, None, ("emit", (60.0 * strength, 50.0 * strength, 40.0 * strength))),
     ]
     for k in range(12):
-        place = (rng.uniform(-2.5, 2.5), 0, rng.uniform(-2.5, 2.5))
-        c = tuple(rng.uniform(0.3, 0.8, 3))
+        place = (balls.uniform(-2.5, 2.5), 0, balls.uniform(-2.5, 2.5))
+        c = tuple(balls.uniform(0.3, 0.8, 3))
         objects.append(ball(f"ball{k}", place, 0.3, ("diffuse", c) if k % 2 else ("plastic", c, 0.15)))
     return Scene(ABOVE, objects, depth=4, error_targets=(2.0, 7.0))
 
