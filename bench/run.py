@@ -21,11 +21,9 @@ SECTIONS = {
     "batch": "models through NumPy",
     "rays": "single rays",
     "paths": "path tracing",
-SECTIONS = {
     "lux": "measuring an office",
     "raster": "rasterising",
     "memory": "ten million triangles",
-}
 }
 
 
