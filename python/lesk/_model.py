@@ -4,17 +4,21 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from types import MappingProxyType
-from typing import Any, ClassVar, NamedTuple, Self
+from typing import Any, ClassVar, NamedTuple, Self, cast
 
 import numpy as np
 import numpy.typing as npt
 
 from lesk import _lesk
 from lesk._arrays import Array, leading_shape, numbers, require_directions, result_type, spread, vectors
+from lesk._outputs import Output, is_planar, output
 from lesk.errors import ParameterError, nearest, quoted
 
 _ALBEDO_BLOCK = 1 << 20
 """Draws at a time when an albedo is estimated: bounds the memory."""
+
+
+_FlatSample = tuple[Array, Array, Array, npt.NDArray[np.bool_]]
 
 
 class Sample(NamedTuple):
@@ -47,7 +51,8 @@ class Model:
     Directions are unit vectors of shape (..., 3) in the local frame (normal +z, tangent +x) and leave the surface:
     `wi` to the light, `wo` to the viewer. Leading shapes of directions and parameters broadcast. float32 directions
     give float32 results, whatever the type of the parameters; anything else is computed and returned in float64.
-    Python's lock is released while a method computes.
+    Directions whose components lie in arrays of their own (`xyz.T` of shape (N, 3) from `xyz` of shape (3, N)) are read
+    in place, and give results of the same layout. Python's lock is released while a method computes.
     """
 
     id: ClassVar[str] = ""
@@ -106,23 +111,27 @@ class Model:
         """
         return type(self)(**{**self._values, **parameters})
 
-    def eval(self, wi: npt.ArrayLike, wo: npt.ArrayLike) -> Array:
+    def eval(self, wi: npt.ArrayLike, wo: npt.ArrayLike, *, out: Array | None = None) -> Array:
         """Evaluate the BSDF f(wi, wo), continuous part, without the cosine.
 
         Parameters
         ----------
         wi, wo : array_like of shape (..., 3)
             Unit vectors to the light and to the viewer, local frame.
+        out : ndarray of shape (..., 3), optional
+            Where the result goes: an array of the result's shape and type. An array of another memory layout than the
+            result's, or one that shares memory with an input, is filled through a temporary one.
 
         Returns
         -------
         ndarray of shape (..., 3)
-            f in 1/sr per channel; 0 outside the model's domain and for directions that are not finite.
+            f in 1/sr per channel; 0 outside the model's domain and for directions that are not finite. It is `out`, if
+            that is given.
 
         Raises
         ------
         ParameterError
-            If a direction is not of unit length, or shapes do not broadcast.
+            If a direction is not of unit length, shapes do not broadcast, or `out` does not fit.
 
         Examples
         --------
@@ -130,29 +139,39 @@ class Model:
         >>> lesk.models.lambert(reflectance=0.5).eval([0, 0, 1], [0.6, 0, 0.8]).round(6).tolist()
         [0.159155, 0.159155, 0.159155]
         """
-        return self._evaluate("eval", (3,), wi, wo)
+        return self._evaluate("eval", (3,), wi, wo, out)
 
-    def pdf(self, wi: npt.ArrayLike, wo: npt.ArrayLike) -> Array:
+    def pdf(self, wi: npt.ArrayLike, wo: npt.ArrayLike, *, out: Array | None = None) -> Array:
         """Compute the density with which `sample` draws `wi` given `wo`, continuous part.
 
         Parameters
         ----------
         wi, wo : array_like of shape (..., 3)
             Unit vectors to the light and to the viewer, local frame.
+        out : ndarray of shape (...), optional
+            Where the result goes: an array of the result's shape and type. An array of another memory layout than the
+            result's, or one that shares memory with an input, is filled through a temporary one.
 
         Returns
         -------
         ndarray of shape (...)
-            Density in 1/sr of solid angle over `wi`.
+            Density in 1/sr of solid angle over `wi`. It is `out`, if that is given.
 
         Raises
         ------
         ParameterError
-            If a direction is not of unit length, or shapes do not broadcast.
+            If a direction is not of unit length, shapes do not broadcast, or `out` does not fit.
         """
-        return self._evaluate("pdf", (), wi, wo)
+        return self._evaluate("pdf", (), wi, wo, out)
 
-    def sample(self, wo: npt.ArrayLike, u: npt.ArrayLike | None = None, *, seed: int = 0) -> Sample:
+    def sample(
+        self,
+        wo: npt.ArrayLike,
+        u: npt.ArrayLike | None = None,
+        *,
+        seed: int = 0,
+        out: Sample | tuple[Array | None, ...] | None = None,
+    ) -> Sample:
         """Draw directions to the light.
 
         Parameters
@@ -164,6 +183,8 @@ class Model:
             and i, and there is one draw per element of the leading shape of `wo` and the parameters.
         seed : int
             Seed of the random numbers, 0 to 2^64 - 1; not used with `u`.
+        out : Sample or tuple of four arrays, optional
+            Where the results go, for instance an earlier result; see `eval`.
 
         Returns
         -------
@@ -173,7 +194,8 @@ class Model:
         Raises
         ------
         ParameterError
-            If a direction is not of unit length, numbers are outside [0, 1), or shapes do not broadcast.
+            If a direction is not of unit length, numbers are outside [0, 1), shapes do not broadcast, or an array of
+            `out` does not fit.
 
         Examples
         --------
@@ -183,18 +205,27 @@ class Model:
         ([-0.6, 0.0, 0.8], [0.9, 0.9, 0.9], True)
         """
         wo = vectors("wo", wo)
-        given = {} if u is None else {"u": _unit_interval(vectors("u", u))}
+        given = {} if u is None else {"u": vectors("u", u)}
         shape = self._shape(wo=wo, **given)
-        dtype = result_type(wo, *given.values())
+        inputs = (wo, *given.values())
+        dtype, planar = result_type(*inputs), is_planar(inputs)
         if not 0 <= seed < 1 << 64:
             raise ParameterError(f"`seed` is {seed}, but 0 to 2^64 - 1 is accepted")
-        wi, weight = np.empty((*shape, 3), dtype), np.empty((*shape, 3), dtype)
-        pdf, delta = np.empty(shape, dtype), np.empty(shape, np.bool_)
-        out = (wi.reshape(-1), weight.reshape(-1), pdf.reshape(-1), delta.reshape(-1))
+        targets = (None,) * len(Sample._fields) if out is None else tuple(out)
+        if len(targets) != len(Sample._fields):
+            raise ParameterError(f"`out` has {len(targets)} arrays, but {len(Sample._fields)} are accepted")
+        results: list[Output] = []
+        for name, target in zip(Sample._fields, targets, strict=True):
+            tail = (3,) if name in ("wi", "weight") else ()
+            kind = np.dtype(np.bool_) if name == "delta" else dtype
+            earlier = (result.flat for result in results)
+            results.append(output(f"out.{name}", shape, tail, kind, planar, target, (*inputs, *earlier)))
         spread_u = spread(given["u"], shape) if given else None
-        if _lesk.draw(self.id, self._parameters(shape), spread_u, spread(wo, shape), int(seed), out):
+        flat = cast(_FlatSample, tuple(result.flat for result in results))
+        if _lesk.draw(self.id, self._parameters(shape), spread_u, spread(wo, shape), int(seed), flat, planar):
+            _require_unit_interval(**given)
             require_directions(wo=wo)
-        return Sample(wi, weight, pdf, delta)
+        return Sample(*(result.deliver() for result in results))
 
     def delta(self, wo: npt.ArrayLike) -> Delta:
         """Give the delta lobes: mirror reflection and refraction, which `eval` and `pdf` do not contain.
@@ -339,22 +370,25 @@ class Model:
     def _parameters(self, shape: tuple[int, ...]) -> list[Array]:
         return [spread(entry, shape) for entry in self._flat]
 
-    def _evaluate(self, what: str, tail: tuple[int, ...], wi: npt.ArrayLike, wo: npt.ArrayLike) -> Array:
+    def _evaluate(
+        self, what: str, tail: tuple[int, ...], wi: npt.ArrayLike, wo: npt.ArrayLike, out: Array | None
+    ) -> Array:
         wi, wo = vectors("wi", wi), vectors("wo", wo)
         shape = self._shape(wi=wi, wo=wo)
-        out = np.empty((*shape, *tail), result_type(wi, wo))
+        planar = is_planar((wi, wo))
+        result = output("out", shape, tail, result_type(wi, wo), planar, out, (wi, wo))
         inputs = (self._parameters(shape), spread(wi, shape), spread(wo, shape))
-        if _lesk.evaluate(self.id, what, *inputs, out.reshape(-1)):
+        if _lesk.evaluate(self.id, what, *inputs, result.flat, planar):
             require_directions(wi=wi, wo=wo)
-        return out
+        return result.deliver()
 
 
-def _unit_interval(u: Array) -> Array:
-    # negated, so that NaN is caught
-    if u.size and not (u.min() >= 0 and u.max() < 1):
-        wrong = u[~((u >= 0) & (u < 1))].flat[0]
-        raise ParameterError(f"`u` holds {wrong:g}, but numbers from 0 to below 1 are accepted")
-    return u
+def _require_unit_interval(**named: Array) -> None:
+    for name, u in named.items():
+        # negated, so that NaN is caught
+        if u.size and not (u.min() >= 0 and u.max() < 1):
+            wrong = u[~((u >= 0) & (u < 1))].flat[0]
+            raise ParameterError(f"`{name}` holds {wrong:g}, but numbers from 0 to below 1 are accepted")
 
 
 def _checked(value: npt.ArrayLike, spec: Mapping[str, Any], model: str) -> Array:

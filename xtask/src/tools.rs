@@ -34,7 +34,7 @@ struct Tool {
 }
 
 /// Every system tool that a task uses, besides Rust and Python.
-const TOOLS: [Tool; 13] = [
+const TOOLS: [Tool; 14] = [
     main(Probe::PythonModule("ensurepip"), "python3-venv", "the virtual environment"),
     main(Probe::Program("glslangValidator"), "glslang-tools", "validating GLSL, GLSL ES and HLSL"),
     main(Probe::Program("spirv-val"), "spirv-tools", "validating and counting SPIR-V"),
@@ -44,6 +44,8 @@ const TOOLS: [Tool; 13] = [
     main(Probe::Library("dri/swrast_dri.so"), "libgl1-mesa-dri", "running GLSL without a graphics card"),
     bench(Probe::Program("g++"), "g++", "comparing with Embree"),
     bench(Probe::Library("libembree3.so"), "libembree-dev", "comparing with Embree"),
+    // Mitsuba refuses LLVM 14, and aborts on environment maps with 15
+    bench(Probe::Library("libLLVM.so.19.1"), "libllvm19", "comparing with Mitsuba's vectorised variant"),
     bench(Probe::Library("libXrender.so.1"), "libxrender1", "comparing with Cycles"),
     bench(Probe::Library("libXi.so.6"), "libxi6", "comparing with Cycles"),
     bench(Probe::Library("libSM.so.6"), "libsm6", "comparing with Cycles"),

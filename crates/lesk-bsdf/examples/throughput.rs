@@ -1,6 +1,6 @@
 //! Throughput of batches, M/s on one core: `cargo run --release -p lesk-bsdf --example throughput [MODEL]`.
 
-use lesk_bsdf::batch::{self, Column, Out};
+use lesk_bsdf::batch::{self, Column, Target};
 use lesk_bsdf::{params, registry};
 use lesk_math::Isa;
 use std::hint::black_box;
@@ -39,28 +39,29 @@ fn main() {
             for isa in Isa::ALL.into_iter().filter(|isa| isa.is_available()) {
                 let mut rows: Vec<Vec<f32>> = vec![vec![0.0; n]; 8];
                 let mut flat = vec![0.0; 3 * n];
-                let mut time = |f: &mut dyn FnMut(&mut [&mut [f32]], &mut [f32]) -> usize| {
+                let mut time = |f: &mut dyn FnMut(&mut [Target], &mut [f32]) -> usize| {
                     let repeat = (1 << 21) / n;
-                    let mut slices: Vec<&mut [f32]> = rows.iter_mut().map(|r| r.as_mut_slice()).collect();
+                    let mut targets: Vec<Target> = rows.iter_mut().map(|row| Target::Row(row)).collect();
                     let mut seconds: Vec<f64> = (0..7)
                         .map(|_| {
                             let start = Instant::now();
                             for _ in 0..repeat {
-                                f(&mut slices, &mut flat);
+                                f(&mut targets, &mut flat);
                             }
                             start.elapsed().as_secs_f64()
                         })
                         .collect();
                     seconds.sort_by(f64::total_cmp);
-                    black_box(&slices);
-                    (n * repeat) as f64 / seconds[3] * 1e-6
+                    black_box(&targets);
+                    (n * repeat) as f64 / seconds[1] * 1e-6
                 };
-                let a = time(&mut |r, _| batch::eval(model, isa, &uniform, wi3, wo3, n, Out::Rows(&mut r[..3])));
+                let a = time(&mut |r, _| batch::eval(model, isa, &uniform, wi3, wo3, n, &mut r[..3]));
                 let (wi, wo) = (Column::interleaved(&wi, n), Column::interleaved(&wo, n));
-                let b = time(&mut |_, f| batch::eval(model, isa, &uniform, wi, wo, n, Out::Interleaved(f)));
-                let c = time(&mut |r, _| batch::pdf(model, isa, &uniform, wi3, wo3, n, Out::Rows(&mut r[..1])));
-                let d = time(&mut |r, _| batch::draw(model, isa, &uniform, u3, wo3, n, Out::Rows(&mut r[..8])));
-                let e = time(&mut |r, _| batch::eval(model, isa, &varying, wi3, wo3, n, Out::Rows(&mut r[..3])));
+                let b =
+                    time(&mut |_, f| batch::eval(model, isa, &uniform, wi, wo, n, &mut [Target::Interleaved(f, 3)]));
+                let c = time(&mut |r, _| batch::pdf(model, isa, &uniform, wi3, wo3, n, &mut r[..1]));
+                let d = time(&mut |r, _| batch::draw(model, isa, &uniform, u3, wo3, n, &mut r[..8]));
+                let e = time(&mut |r, _| batch::eval(model, isa, &varying, wi3, wo3, n, &mut r[..3]));
                 println!("  {:24} {:9} {a:7.0} {b:7.0} {c:7.0} {d:7.0} {e:7.0}", model.id(), isa.name());
             }
         }

@@ -5,7 +5,10 @@
 //! in the first-level cache, and it keeps loads and stores of a loop from meeting at the same 4 KB offset, which halves its speed.
 
 mod copy;
+#[cfg(target_arch = "x86_64")]
+mod shuffle;
 
+pub use crate::kernels::UNIT_TOLERANCE;
 use crate::kernels::{BLOCK, Block, DRAW_OUTPUTS, Kernel, Row};
 use crate::scatter::Scatter;
 use lesk_math::{CHANNELS, Isa};
@@ -44,21 +47,59 @@ impl<'a> Column<'a> {
     }
 }
 
-/// Where results go: row `c`, element `i`.
-pub enum Out<'a, 'b> {
-    /// One slice per output.
-    Rows(&'a mut [&'b mut [f32]]),
-    /// All outputs of a direction one after the other.
-    Interleaved(&'a mut [f32]),
+/// Where the next outputs of `n` directions go.
+#[derive(Debug)]
+pub enum Target<'a, T = f32> {
+    /// One output.
+    Row(&'a mut [T]),
+    /// Several outputs, as many as the number says, those of a direction one after the other.
+    Interleaved(&'a mut [T], usize),
+    /// One output, as whether it is not 0.
+    Flags(&'a mut [bool]),
 }
 
-/// Directions whose squared length differs from 1 by more than this are counted, and give 0 only if they are not finite.
-pub const UNIT_TOLERANCE: f32 = 1e-4;
+impl<'a, T> Target<'a, T> {
+    /// How many outputs it takes.
+    pub fn width(&self) -> usize {
+        if let Target::Interleaved(_, width) = self { *width } else { 1 }
+    }
+    /// The number of directions that it has room for.
+    pub fn rows(&self) -> usize {
+        match self {
+            Target::Row(row) => row.len(),
+            Target::Interleaved(rows, width) => rows.len() / width,
+            Target::Flags(flags) => flags.len(),
+        }
+    }
+    /// The part for the first `rows` directions, and the rest.
+    ///
+    /// # Panics
+    /// If there are fewer.
+    pub fn split_at(self, rows: usize) -> (Target<'a, T>, Target<'a, T>) {
+        match self {
+            Target::Row(all) => {
+                let (first, rest) = all.split_at_mut(rows);
+                (Target::Row(first), Target::Row(rest))
+            }
+            Target::Interleaved(all, width) => {
+                let (first, rest) = all.split_at_mut(rows * width);
+                (Target::Interleaved(first, width), Target::Interleaved(rest, width))
+            }
+            Target::Flags(all) => {
+                let (first, rest) = all.split_at_mut(rows);
+                (Target::Flags(first), Target::Flags(rest))
+            }
+        }
+    }
+}
 
 /// From this number of directions on, results go past the caches: they would not stay there anyway.
 const STREAMING: usize = 1 << 18;
 
 /// f(wi, wo) in 1/sr: one output per channel. Returns how many directions were not of unit length.
+///
+/// # Panics
+/// If the targets do not take exactly these outputs of `n` directions.
 pub fn eval(
     model: &dyn Scatter,
     isa: Isa,
@@ -66,12 +107,15 @@ pub fn eval(
     wi: [Column; 3],
     wo: [Column; 3],
     n: usize,
-    out: Out,
+    out: &mut [Target],
 ) -> usize {
-    run(model.kernels().for_isa(isa).eval, isa, CHANNELS, true, params, wi, wo, n, out)
+    run(model.kernels().for_isa(isa).eval, isa, CHANNELS, params, wi, wo, n, out)
 }
 
 /// The density of drawing `wi` given `wo`, in 1/sr: one output. Returns how many directions were not of unit length.
+///
+/// # Panics
+/// As [`eval`].
 pub fn pdf(
     model: &dyn Scatter,
     isa: Isa,
@@ -79,13 +123,16 @@ pub fn pdf(
     wi: [Column; 3],
     wo: [Column; 3],
     n: usize,
-    out: Out,
+    out: &mut [Target],
 ) -> usize {
-    run(model.kernels().for_isa(isa).pdf, isa, 1, true, params, wi, wo, n, out)
+    run(model.kernels().for_isa(isa).pdf, isa, 1, params, wi, wo, n, out)
 }
 
 /// Draws `wi` given `wo` and `u`: outputs wi.x, wi.y, wi.z, the weight's channels, pdf, delta. Returns how many `wo` were
-/// not of unit length.
+/// not of unit length and `u` not in [0, 1).
+///
+/// # Panics
+/// As [`eval`].
 pub fn draw(
     model: &dyn Scatter,
     isa: Isa,
@@ -93,68 +140,58 @@ pub fn draw(
     u: [Column; 3],
     wo: [Column; 3],
     n: usize,
-    out: Out,
+    out: &mut [Target],
 ) -> usize {
-    run(model.kernels().for_isa(isa).draw, isa, DRAW_OUTPUTS, false, params, u, wo, n, out)
-}
-
-/// Scratch of one batch.
-struct Scratch {
-    directions: [Row; 6],
-    params: Vec<Row>,
-    out: Vec<Row>,
+    run(model.kernels().for_isa(isa).draw, isa, DRAW_OUTPUTS, params, u, wo, n, out)
 }
 
 fn run(
     kernel: Kernel,
     isa: Isa,
     outputs: usize,
-    first_is_direction: bool,
     params: &[Column],
     first: [Column; 3],
     second: [Column; 3],
     n: usize,
-    mut out: Out,
+    out: &mut [Target],
 ) -> usize {
+    assert!(out.iter().all(|target| target.rows() == n), "the targets need room for {n} directions");
+    assert_eq!(out.iter().map(Target::width).sum::<usize>(), outputs, "outputs that the targets take");
     let uniform = params.iter().all(|p| p.stride == 0);
-    let varying = if uniform { 0 } else { params.len() };
-    let mut scratch = Box::new(Scratch {
-        directions: [[0.0; BLOCK]; 6],
-        params: vec![[0.0; BLOCK]; varying],
-        out: vec![[0.0; BLOCK]; outputs],
-    });
-    let Scratch { directions, params: param_rows, out: rows } = &mut *scratch;
+    // not in a box: that would be built here and copied there
+    let (mut directions, mut rows) = ([[0.0; BLOCK]; 6], [[0.0; BLOCK]; DRAW_OUTPUTS]);
+    let mut param_rows = vec![[0.0; BLOCK]; if uniform { 0 } else { params.len() }];
+    let single: Vec<&[f32]> = params.iter().map(|column| &column.data[..1]).collect();
     let columns = [first[0], first[1], first[2], second[0], second[1], second[2]];
     let copies = copy::Copies::for_isa(isa);
-    let mut odd = 0;
-    for start in (0..n).step_by(BLOCK) {
-        let len = BLOCK.min(n - start);
-        let views = copy::gather(&copies, &columns, directions, start, len);
-        let mut param_views: Vec<&[f32]> = Vec::with_capacity(params.len());
-        if uniform {
-            param_views.extend(params.iter().map(|p| &p.data[..1]));
-        } else {
-            for (column, row) in params.iter().zip(param_rows.iter_mut()) {
-                for i in 0..len {
-                    row[i] = column.data[(start + i) * column.stride];
-                }
-            }
-            param_views.extend(param_rows.iter().map(|row| &row[..len]));
-        }
+    let streaming = n >= STREAMING;
+    let (mut odd, mut start) = (0, 0);
+    while start < n {
+        let whole = if start == 0 && streaming { copy::rows_to_line(&out[0]) } else { BLOCK };
+        let len = whole.min(n - start);
+        let varying = gather_params(params, &mut param_rows, start, len);
         let block = Block {
             n: len,
-            params: &param_views,
+            params: if uniform { &single } else { &varying },
             uniform,
-            first: [views[0], views[1], views[2]],
-            second: [views[3], views[4], views[5]],
+            directions: copies.gather(&columns, &mut directions, start, len),
         };
         // SAFETY: `for_isa` checked that this processor has the instruction set
-        unsafe { kernel(&block, rows) };
-        copy::scatter(&copies, rows, &mut out, start, len, n >= STREAMING);
-        odd += copies.count_odd(block.second, len);
-        if first_is_direction {
-            odd += copies.count_odd(block.first, len);
+        odd += unsafe { kernel(&block, &mut rows[..outputs]) } as usize;
+        copies.scatter(&rows[..outputs], out, start, len, streaming);
+        start += len;
+    }
+    copy::finish(streaming);
+    odd
+}
+
+/// Elements `start..start + n` of each parameter that has a row, copied to it.
+fn gather_params<'a>(params: &[Column], rows: &'a mut [Row], start: usize, n: usize) -> Vec<&'a [f32]> {
+    for (column, row) in params.iter().zip(rows.iter_mut()) {
+        let from = &column.data[start * column.stride..];
+        for i in 0..n {
+            row[i] = from[i * column.stride];
         }
     }
-    odd
+    rows.iter().map(|row| &row[..n]).collect()
 }

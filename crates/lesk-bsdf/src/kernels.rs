@@ -6,7 +6,7 @@
 use crate::bsdf::{self, Bsdf};
 use crate::model::Domain;
 use crate::params::{Params, flat_len};
-use lesk_math::{CHANNELS, Isa, Lane, Vec3, vec3};
+use lesk_math::{CHANNELS, Isa, Lane, Real, Vec3, vec3};
 
 /// Directions per block. All arrays stay in the first-level cache, and a block is short enough for the processor to fetch
 /// the next one meanwhile: 128 is 15 to 25 % faster than 512 from memory, and as fast from the cache.
@@ -27,13 +27,16 @@ pub struct Block<'a> {
     /// One entry per flat parameter, of length 1 (`uniform`) or at least `n`.
     pub params: &'a [&'a [f32]],
     pub uniform: bool,
-    /// `wi` and `wo` for eval and pdf; `u` and `wo` for draw.
-    pub first: [&'a [f32]; 3],
-    pub second: [&'a [f32]; 3],
+    /// The components of `wi` and `wo` for eval and pdf, of `u` and `wo` for draw.
+    pub directions: [&'a [f32]; 6],
 }
 
-/// A loop over one block, writing one row per output.
-pub type Kernel = unsafe fn(&Block, &mut [Row]);
+/// Directions whose squared length differs from 1 by more than this are counted, and give 0 only if they are not finite.
+pub const UNIT_TOLERANCE: f32 = 1e-4;
+
+/// A loop over one block, writing one row per output. Returns how many inputs were out of range: directions not of unit
+/// length, numbers `u` outside [0, 1).
+pub type Kernel = unsafe fn(&Block, &mut [Row]) -> u32;
 
 /// The loops of one instruction set.
 #[derive(Clone, Copy)]
@@ -74,12 +77,15 @@ impl Kernels {
 /// The body that a loop runs for one direction: reads element `i`, writes element `i` of each row.
 pub(crate) trait Body<const FMA: bool, B> {
     const OUTPUTS: usize;
+    /// Whether the first input is a direction, not numbers in [0, 1).
+    const FIRST_IS_DIRECTION: bool;
     fn run(domain: Domain, model: &B, first: Vec3<Lane<FMA>>, second: Vec3<Lane<FMA>>, i: usize, out: &mut [Row]);
 }
 
 pub(crate) struct Eval;
 impl<const FMA: bool, B: Bsdf<Lane<FMA>>> Body<FMA, B> for Eval {
     const OUTPUTS: usize = CHANNELS;
+    const FIRST_IS_DIRECTION: bool = true;
     #[inline(always)]
     fn run(domain: Domain, model: &B, wi: Vec3<Lane<FMA>>, wo: Vec3<Lane<FMA>>, i: usize, out: &mut [Row]) {
         let f = bsdf::eval(domain, model, wi, wo);
@@ -92,6 +98,7 @@ impl<const FMA: bool, B: Bsdf<Lane<FMA>>> Body<FMA, B> for Eval {
 pub(crate) struct Pdf;
 impl<const FMA: bool, B: Bsdf<Lane<FMA>>> Body<FMA, B> for Pdf {
     const OUTPUTS: usize = 1;
+    const FIRST_IS_DIRECTION: bool = true;
     #[inline(always)]
     fn run(domain: Domain, model: &B, wi: Vec3<Lane<FMA>>, wo: Vec3<Lane<FMA>>, i: usize, out: &mut [Row]) {
         out[0][i] = bsdf::pdf(domain, model, wi, wo).0;
@@ -101,6 +108,7 @@ impl<const FMA: bool, B: Bsdf<Lane<FMA>>> Body<FMA, B> for Pdf {
 pub(crate) struct Draw;
 impl<const FMA: bool, B: Bsdf<Lane<FMA>>> Body<FMA, B> for Draw {
     const OUTPUTS: usize = DRAW_OUTPUTS;
+    const FIRST_IS_DIRECTION: bool = false;
     #[inline(always)]
     fn run(domain: Domain, model: &B, u: Vec3<Lane<FMA>>, wo: Vec3<Lane<FMA>>, i: usize, out: &mut [Row]) {
         let s = bsdf::draw(domain, model, wo, u.to_array());
@@ -115,23 +123,43 @@ impl<const FMA: bool, B: Bsdf<Lane<FMA>>> Body<FMA, B> for Draw {
     }
 }
 
+/// Whether a direction is not of unit length; NaN counts.
+#[inline(always)]
+fn is_odd<const FMA: bool>(v: Vec3<Lane<FMA>>) -> bool {
+    let is_unit = (v.length_squared().0 - 1.0).abs() <= UNIT_TOLERANCE;
+    !is_unit
+}
+
+/// Whether one of three numbers lies outside [0, 1); NaN does.
+#[inline(always)]
+fn is_outside<const FMA: bool>(u: Vec3<Lane<FMA>>) -> bool {
+    !(u.x.ge(Lane(0.0))
+        & u.x.lt(Lane(1.0))
+        & u.y.ge(Lane(0.0))
+        & u.y.lt(Lane(1.0))
+        & u.z.ge(Lane(0.0))
+        & u.z.lt(Lane(1.0)))
+}
+
 /// The loop. Everything in it is inlined into the caller, whose instruction set it thereby gets.
 #[inline(always)]
-pub(crate) fn run_block<const FMA: bool, B, F>(domain: Domain, block: &Block, out: &mut [Row])
+pub(crate) fn run_block<const FMA: bool, B, F>(domain: Domain, block: &Block, out: &mut [Row]) -> u32
 where
     B: Params<Lane<FMA>>,
     F: Body<FMA, B>,
 {
     let n = block.n.min(BLOCK);
     let params = block.params;
-    let [ax, ay, az] = [&block.first[0][..n], &block.first[1][..n], &block.first[2][..n]];
-    let [bx, by, bz] = [&block.second[0][..n], &block.second[1][..n], &block.second[2][..n]];
+    let [ax, ay, az, bx, by, bz] = block.directions;
+    let [ax, ay, az, bx, by, bz] = [&ax[..n], &ay[..n], &az[..n], &bx[..n], &by[..n], &bz[..n]];
     let out = &mut out[..F::OUTPUTS];
     let lane = |row: &[f32], i: usize| Lane::<FMA>(row[i]);
+    let mut odd = 0;
     if block.uniform {
         let model = B::gather(|p| Lane(params[p][0]));
         for i in 0..n {
             let (a, b) = (vec3(lane(ax, i), lane(ay, i), lane(az, i)), vec3(lane(bx, i), lane(by, i), lane(bz, i)));
+            odd += u32::from(if F::FIRST_IS_DIRECTION { is_odd(a) } else { is_outside(a) }) + u32::from(is_odd(b));
             F::run(domain, &model, a, b, i, out);
         }
     } else {
@@ -140,9 +168,11 @@ where
             // SAFETY: `rows_of` checked that each row has n values; i < n
             let model = B::gather(|p| Lane(unsafe { *rows[p].add(i) }));
             let (a, b) = (vec3(lane(ax, i), lane(ay, i), lane(az, i)), vec3(lane(bx, i), lane(by, i), lane(bz, i)));
+            odd += u32::from(if F::FIRST_IS_DIRECTION { is_odd(a) } else { is_outside(a) }) + u32::from(is_odd(b));
             F::run(domain, &model, a, b, i, out);
         }
     }
+    odd
 }
 
 /// Pointers to the first `n` values of each parameter: a slice of slices in the loop would keep it from vectorising.

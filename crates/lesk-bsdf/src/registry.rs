@@ -63,15 +63,15 @@ macro_rules! kernel_set {
         type M = $Type<lesk_math::Lane<$fma>>;
         use crate::kernels::{Block, Draw, Eval, Pdf, Row, run_block};
         $(#[target_feature(enable = $feature)])?
-        unsafe fn eval(block: &Block, out: &mut [Row]) {
+        unsafe fn eval(block: &Block, out: &mut [Row]) -> u32 {
             run_block::<$fma, M, Eval>($MODEL.domain, block, out)
         }
         $(#[target_feature(enable = $feature)])?
-        unsafe fn pdf(block: &Block, out: &mut [Row]) {
+        unsafe fn pdf(block: &Block, out: &mut [Row]) -> u32 {
             run_block::<$fma, M, Pdf>($MODEL.domain, block, out)
         }
         $(#[target_feature(enable = $feature)])?
-        unsafe fn draw(block: &Block, out: &mut [Row]) {
+        unsafe fn draw(block: &Block, out: &mut [Row]) -> u32 {
             run_block::<$fma, M, Draw>($MODEL.domain, block, out)
         }
         crate::kernels::KernelSet { eval, pdf, draw }

@@ -4,7 +4,7 @@
 mod common;
 
 use common::Random;
-use lesk_bsdf::batch::{self, Column, Out};
+use lesk_bsdf::batch::{self, Column, Target};
 use lesk_bsdf::kernels::DRAW_OUTPUTS;
 use lesk_bsdf::model::Domain;
 use lesk_bsdf::params::{ParamSpec, defaults};
@@ -148,13 +148,13 @@ fn batches_are_finite_on_a_grid_of_extremes() {
         for isa in Isa::ALL.into_iter().filter(|isa| isa.is_available()) {
             for table in extremes(model.specs(), &mut random) {
                 let params: Vec<Column> = table.iter().map(Column::uniform).collect();
-                let mut slices: Vec<&mut [f32]> = rows.iter_mut().map(Vec::as_mut_slice).collect();
-                let (f, rest) = slices.split_at_mut(CHANNELS);
+                let mut targets: Vec<Target> = rows.iter_mut().map(|row| Target::Row(row)).collect();
+                let (f, rest) = targets.split_at_mut(CHANNELS);
                 let (pdf, draw) = rest.split_at_mut(1);
                 let (wi, wo, u) = (columns(&grid.wi), columns(&grid.wo), columns(&grid.u));
-                batch::eval(model, isa, &params, wi, wo, grid.n, Out::Rows(f));
-                batch::pdf(model, isa, &params, wi, wo, grid.n, Out::Rows(pdf));
-                batch::draw(model, isa, &params, u, wo, grid.n, Out::Rows(draw));
+                batch::eval(model, isa, &params, wi, wo, grid.n, f);
+                batch::pdf(model, isa, &params, wi, wo, grid.n, pdf);
+                batch::draw(model, isa, &params, u, wo, grid.n, draw);
                 for i in 0..grid.n {
                     let at: Vec<f32> = rows.iter().map(|row| row[i]).collect();
                     let (wi, wo) = (Grid::at(&grid.wi, i), Grid::at(&grid.wo, i));

@@ -7,7 +7,7 @@
 mod common;
 
 use common::{Random, condition, reference, rounded};
-use lesk_bsdf::batch::{self, Column, Out};
+use lesk_bsdf::batch::{self, Column, Target};
 use lesk_bsdf::kernels::DRAW_OUTPUTS;
 use lesk_bsdf::{Scatter, registry};
 use lesk_math::{CHANNELS, Isa, Vec3};
@@ -133,7 +133,7 @@ fn columns(rows: &[Vec<f32>; 3]) -> [Column<'_>; 3] {
     [0, 1, 2].map(|c| Column::contiguous(&rows[c]))
 }
 
-type Call = fn(&dyn Scatter, Isa, &[Column], [Column; 3], [Column; 3], usize, Out);
+type Call = fn(&dyn Scatter, Isa, &[Column], [Column; 3], [Column; 3], usize, &mut [Target]);
 
 /// The rows that a batch call writes.
 fn run<const ROWS: usize>(
@@ -145,8 +145,8 @@ fn run<const ROWS: usize>(
     second: &[Vec<f32>; 3],
 ) -> [Vec<f32>; ROWS] {
     let mut rows: [Vec<f32>; ROWS] = std::array::from_fn(|_| vec![f32::NAN; N]);
-    let mut slices: Vec<&mut [f32]> = rows.iter_mut().map(Vec::as_mut_slice).collect();
-    call(model, isa, params, columns(first), columns(second), N, Out::Rows(&mut slices));
+    let mut targets: Vec<Target> = rows.iter_mut().map(|row| Target::Row(row)).collect();
+    call(model, isa, params, columns(first), columns(second), N, &mut targets);
     rows
 }
 

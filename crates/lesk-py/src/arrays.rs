@@ -1,9 +1,10 @@
 //! NumPy arrays as the rows of a batch: any strides, either float type, broadcast, read where they lie.
 
 use crate::value_error;
+use lesk_bsdf::batch::Target;
 use lesk_math::rng::Stream;
 use numpy::ndarray::{ArrayViewD, Axis, Ix2, Slice};
-use numpy::{Element, PyReadonlyArrayDyn};
+use numpy::{Element, PyArrayDyn, PyArrayMethods, PyReadonlyArrayDyn};
 use pyo3::prelude::*;
 use rayon::prelude::*;
 
@@ -11,17 +12,28 @@ use rayon::prelude::*;
 const GATHERED: usize = 4096;
 
 /// An array that Python passes.
-#[derive(FromPyObject)]
 pub enum Source<'py> {
     Single(PyReadonlyArrayDyn<'py, f32>),
     Double(PyReadonlyArrayDyn<'py, f64>),
+}
+
+// not derived: that makes an exception of Python for each type that does not fit, which takes 10 us
+impl<'py> FromPyObject<'_, 'py> for Source<'py> {
+    type Error = PyErr;
+
+    fn extract(object: Borrowed<'_, 'py, PyAny>) -> PyResult<Source<'py>> {
+        if let Ok(array) = object.cast::<PyArrayDyn<f32>>() {
+            Ok(Source::Single(array.try_readonly()?))
+        } else {
+            Ok(Source::Double(object.extract()?))
+        }
+    }
 }
 
 /// A float type of NumPy.
 pub trait Number: Element + Copy + Default + Send + Sync {
     fn from_f32(x: f32) -> Self;
     fn from_f64(x: f64) -> Self;
-    fn is_zero(self) -> bool;
     /// The next number in [0, 1).
     fn random(stream: &mut Stream) -> Self;
     /// The array itself, if it holds this type.
@@ -34,9 +46,6 @@ impl Number for f32 {
     }
     fn from_f64(x: f64) -> f32 {
         x as f32
-    }
-    fn is_zero(self) -> bool {
-        self == 0.0
     }
     fn random(stream: &mut Stream) -> f32 {
         stream.next_f32()
@@ -52,9 +61,6 @@ impl Number for f64 {
     }
     fn from_f64(x: f64) -> f64 {
         x
-    }
-    fn is_zero(self) -> bool {
-        self == 0.0
     }
     fn random(stream: &mut Stream) -> f64 {
         stream.next_f64()
@@ -75,6 +81,7 @@ pub struct Input<'a> {
     view: View<'a>,
     width: usize,
     uniform: bool,
+    planes: bool,
 }
 
 impl<'a> Input<'a> {
@@ -93,25 +100,49 @@ impl<'a> Input<'a> {
         }
         // one row, or one that NumPy repeats
         let still = shape.iter().zip(strides).rev().skip(1).all(|(&length, &stride)| length == 1 || stride == 0);
-        Ok(Input { view, width, uniform: len > 0 && still })
+        Ok(Input { view, width, uniform: len > 0 && still, planes: false })
+    }
+
+    /// Whoever reads the parts takes [`Part::Planes`] too.
+    pub fn allow_planes(self) -> Input<'a> {
+        Input { planes: true, ..self }
     }
 
     /// Rows `start..start + rows` (or the only one), in place where they lie as `T` one after the other.
-    fn rows<'s, T: Number>(&'s self, start: usize, rows: usize, scratch: &'s mut Vec<T>) -> &'s [T] {
+    fn part<'s, T: Number>(&'s self, start: usize, rows: usize, scratch: &'s mut Vec<T>) -> Part<'s, T> {
         let (start, rows) = if self.uniform { (0, 1) } else { (start, rows) };
-        if let Some(all) = self.direct() {
-            return &all[start * self.width..(start + rows) * self.width];
+        if let Some(all) = self.rows() {
+            return Part::Rows(&all[start * self.width..(start + rows) * self.width]);
+        }
+        if let Some(planes) = self.planes() {
+            return Part::Planes(planes.map(|plane| &plane[start..start + rows]));
         }
         scratch.clear();
         match &self.view {
             View::Single(v) => gather(v, start, rows, scratch, T::from_f32),
             View::Double(v) => gather(v, start, rows, scratch, T::from_f64),
         }
-        scratch
+        Part::Rows(scratch)
     }
 
-    fn direct<T: Number>(&self) -> Option<&[T]> {
+    /// The whole input, where it lies as `T` one row after the other.
+    fn rows<T: Number>(&self) -> Option<&[T]> {
         T::own(&self.view)?.as_slice()
+    }
+
+    /// The whole input, where each of its three components lies as `T` in an array of its own.
+    fn planes<T: Number>(&self) -> Option<[&[T]; 3]> {
+        if !self.planes || self.uniform || self.width != 3 {
+            return None;
+        }
+        let view = T::own(&self.view)?;
+        let last = Axis(view.ndim() - 1);
+        let plane = |c: usize| view.view().index_axis_move(last, c).to_slice();
+        Some([plane(0)?, plane(1)?, plane(2)?])
+    }
+
+    fn is_in_place<T: Number>(&self) -> bool {
+        self.uniform || self.rows::<T>().is_some() || self.planes::<T>().is_some()
     }
 }
 
@@ -142,11 +173,20 @@ fn gather<S: Copy, T>(view: &ArrayViewD<S>, start: usize, rows: usize, out: &mut
     }
 }
 
+/// Some rows of an input.
+#[derive(Clone, Copy)]
+pub enum Part<'a, T> {
+    /// One after the other.
+    Rows(&'a [T]),
+    /// Each of the three components in an array of its own.
+    Planes([&'a [T]; 3]),
+}
+
 /// Rows `start..start + n` of all inputs, each with one row (used for all) or `n` rows.
 pub struct Rows<'a, T> {
     pub start: usize,
     pub n: usize,
-    inputs: Vec<&'a [T]>,
+    inputs: Vec<Part<'a, T>>,
     widths: &'a [usize],
 }
 
@@ -156,22 +196,33 @@ impl<'a, T: Copy> Rows<'a, T> {
     }
 
     /// All rows of an input, and whether it has only one.
-    pub fn input(&self, input: usize) -> (&'a [T], bool) {
-        let values = self.inputs[input];
-        (values, values.len() == self.widths[input])
+    pub fn input(&self, input: usize) -> (Part<'a, T>, bool) {
+        let part = self.inputs[input];
+        (part, matches!(part, Part::Rows(values) if values.len() == self.widths[input]))
     }
 
     /// Row `i` of an input.
+    ///
+    /// # Panics
+    /// If the input was allowed to come as planes, and does.
     pub fn row(&self, input: usize, i: usize) -> &'a [T] {
-        let (values, width) = (self.inputs[input], self.widths[input]);
-        if values.len() == width { values } else { &values[i * width..(i + 1) * width] }
+        let width = self.widths[input];
+        match self.inputs[input] {
+            Part::Rows(values) if values.len() == width => values,
+            Part::Rows(values) => &values[i * width..(i + 1) * width],
+            Part::Planes(_) => panic!("rows are read from an input that may come as planes"),
+        }
     }
 }
 
-/// An equal share of `n` rows for each thread, but at least `grain`.
+/// How many of `n` rows a part should have: an equal share for each thread, but at least `grain`.
 pub fn share(n: usize, grain: usize) -> usize {
-    n.div_ceil(rayon::current_num_threads()).max(grain)
+    // asking for the threads starts them, which costs more than a small batch
+    if n <= grain { grain } else { n.div_ceil(rayon::current_num_threads()).max(grain).next_multiple_of(ALIGNED_ROWS) }
 }
+
+/// Whatever a row holds, this many end on a border of a cache line if the first starts on one.
+const ALIGNED_ROWS: usize = 64;
 
 /// Cuts a batch into parts of at most `size` rows, with one of the `chunks(rows per part)` of the output for each, runs
 /// them on all threads and sums what they return.
@@ -182,20 +233,53 @@ pub fn in_parts<T: Number, C: Send>(
     chunks: impl FnOnce(usize) -> Vec<C>,
     run: impl Fn(&Rows<T>, C) -> usize + Sync,
 ) -> usize {
-    let direct = inputs.iter().all(|input| input.uniform || input.direct::<T>().is_some());
-    let size = if direct { size } else { size.min(GATHERED) };
+    let in_place = inputs.iter().all(Input::is_in_place::<T>);
+    let size = if in_place { size } else { size.min(GATHERED) };
     let widths: Vec<usize> = inputs.iter().map(|input| input.width).collect();
-    chunks(size)
-        .into_par_iter()
-        .enumerate()
-        .map_init(
-            || vec![Vec::new(); inputs.len()],
-            |scratch, (k, chunk)| {
-                let start = k * size;
-                let rows = size.min(n - start);
-                let inputs = inputs.iter().zip(scratch).map(|(input, s)| input.rows(start, rows, s)).collect();
-                run(&Rows { start, n: rows, inputs, widths: &widths }, chunk)
-            },
-        )
-        .sum()
+    let scratch = || vec![Vec::new(); inputs.len()];
+    let part = |scratch: &mut Vec<Vec<T>>, k: usize, chunk: C| {
+        let start = k * size;
+        let rows = size.min(n - start);
+        let inputs = inputs.iter().zip(scratch).map(|(input, s)| input.part(start, rows, s)).collect();
+        run(&Rows { start, n: rows, inputs, widths: &widths }, chunk)
+    };
+    let mut chunks = chunks(size);
+    // handing over to another thread and waiting for it costs more than a small batch
+    if chunks.len() <= 1 || rayon::current_num_threads() == 1 {
+        let mut scratch = scratch();
+        return chunks.drain(..).enumerate().map(|(k, chunk)| part(&mut scratch, k, chunk)).sum();
+    }
+    chunks.into_par_iter().enumerate().map_init(scratch, |scratch, (k, chunk)| part(scratch, k, chunk)).sum()
+}
+
+/// Cuts targets into parts of `size` rows.
+pub fn cut<T>(mut targets: Vec<Target<T>>, size: usize) -> Vec<Vec<Target<T>>> {
+    let mut parts = Vec::new();
+    while targets.iter().any(|target| target.rows() > 0) {
+        let halves = targets.into_iter().map(|target| {
+            let rows = size.min(target.rows());
+            target.split_at(rows)
+        });
+        let (part, rest) = halves.unzip();
+        parts.push(part);
+        targets = rest;
+    }
+    parts
+}
+
+/// Writes the outputs of row `i`.
+pub fn put<T: Number>(targets: &mut [Target<T>], i: usize, mut values: &[f64]) {
+    for target in targets {
+        let (these, rest) = values.split_at(target.width());
+        values = rest;
+        match target {
+            Target::Row(row) => row[i] = T::from_f64(these[0]),
+            Target::Interleaved(rows, width) => {
+                for (to, from) in rows[i * *width..].iter_mut().zip(these) {
+                    *to = T::from_f64(*from);
+                }
+            }
+            Target::Flags(flags) => flags[i] = these[0] != 0.0,
+        }
+    }
 }

@@ -1,23 +1,26 @@
 //! Drawing directions, each output in an array of its own.
 
-use crate::arrays::{Number, Rows, Source, in_parts};
-use crate::models::{Target, columns, find, flat, inputs, is_odd, reference, vector};
-use crate::value_error;
-use lesk_bsdf::batch::{self, Column, Out};
+use crate::arrays::{Number, Rows, Source, cut, in_parts};
+use crate::models::{Target, columns, each, find, inputs, planes, reference, rows_of, targets};
+use crate::{arrays::share, value_error};
+use lesk_bsdf::batch::{self, Column};
 use lesk_bsdf::kernels::DRAW_OUTPUTS;
-use lesk_bsdf::scatter::{Methods, Scatter};
 use lesk_math::rng::Stream;
 use lesk_math::sobol::Sampler;
-use lesk_math::{CHANNELS, Isa};
+use lesk_math::{CHANNELS, Isa, Vec3};
 use numpy::{PyArray1, PyReadwriteArray1};
 use pyo3::prelude::*;
 
-/// Draws at a time: their outputs stay in the caches until they lie in the arrays.
-const BLOCK: usize = 2048;
+/// Below this number of draws per thread, splitting costs more than it gains.
+const GRAIN: usize = 1 << 14;
+
+/// Draws at a time where their numbers have to be made first: those stay in the caches.
+const SEEDED: usize = 2048;
 
 /// Draws a direction for each `wo`, with the numbers `u` or with those that belong to `seed` and its index. The flat
-/// outputs hold n times a direction, a weight, a density and whether a delta lobe was taken. Returns a positive number
-/// if directions were not of unit length.
+/// outputs hold n times a direction, a weight, a density and whether a delta lobe was taken; with `planar`, directions
+/// and weights hold one component after the other. Returns a positive number if directions were not of unit length, or
+/// numbers outside [0, 1).
 #[pyfunction]
 pub fn draw(
     py: Python<'_>,
@@ -27,139 +30,80 @@ pub fn draw(
     wo: Source<'_>,
     seed: u64,
     out: (Target<'_>, Target<'_>, Target<'_>, PyReadwriteArray1<'_, bool>),
+    planar: bool,
 ) -> PyResult<usize> {
     let model = find(id)?;
     let (wi, weight, pdf, mut delta) = out;
     let delta = delta.as_slice_mut().map_err(value_error)?;
+    let n = delta.len();
     // without `u`, `wo` stands in its place and is not read there
-    let inputs = inputs(model, &params, &[u.as_ref().unwrap_or(&wo), &wo], delta.len())?;
+    let inputs = inputs(model, &params, &[u.as_ref().unwrap_or(&wo), &wo], n)?;
     let seed = if u.is_some() { None } else { Some(seed) };
     match (wi, weight, pdf) {
         (Target::Single(mut wi), Target::Single(mut weight), Target::Single(mut pdf)) => {
-            let chunk = Chunk::new(&mut wi, &mut weight, &mut pdf, delta)?;
-            Ok(py.detach(|| run(&inputs, seed, chunk, &Kernels(model))))
+            let out = outputs(&mut wi, &mut weight, &mut pdf, delta, planar)?;
+            let inputs = planes(inputs);
+            let size = if seed.is_some() { SEEDED } else { share(n, GRAIN) };
+            let draw_rows = |rows: &Rows<f32>, mut out: Vec<batch::Target>| {
+                let (params, given, wo) = columns(rows);
+                let random = seed.map(|seed| random(seed, rows.start, rows.n));
+                let u = random.as_ref().map_or(given, |u| Column::interleaved(u, rows.n));
+                batch::draw(model, Isa::current(), &params, u, wo, rows.n, &mut out)
+            };
+            Ok(py.detach(|| in_parts(&inputs, n, size, |size| cut(out, size), draw_rows)))
         }
         (Target::Double(mut wi), Target::Double(mut weight), Target::Double(mut pdf)) => {
-            let chunk = Chunk::new(&mut wi, &mut weight, &mut pdf, delta)?;
+            let out = outputs(&mut wi, &mut weight, &mut pdf, delta, planar)?;
             let methods = reference(model)?;
-            Ok(py.detach(|| run(&inputs, seed, chunk, &Reference(methods))))
+            let draw_one = |i: usize, params: &[f64], given: Vec3<f64>, wo: Vec3<f64>, row: &mut [f64]| {
+                let u = seed.map_or(given.to_array(), |seed| numbers(seed, i));
+                let s = (methods.draw)(params, wo, u);
+                row[..3].copy_from_slice(&s.wi.to_array());
+                row[3..3 + CHANNELS].copy_from_slice(&s.weight.0);
+                row[3 + CHANNELS..].copy_from_slice(&[s.pdf, s.delta]);
+            };
+            // without `u`, another input stands in its place
+            let is_u_odd = if seed.is_some() { |_| false } else { is_outside };
+            Ok(py.detach(|| each(&inputs, DRAW_OUTPUTS, out, is_u_odd, draw_one)))
         }
         _ => Err(value_error("the outputs must be of one type")),
     }
 }
 
-/// The outputs of some draws.
-struct Chunk<'a, T> {
-    wi: &'a mut [T],
-    weight: &'a mut [T],
-    pdf: &'a mut [T],
+/// Whether one of three numbers lies outside [0, 1), or is NaN.
+fn is_outside(u: Vec3<f64>) -> bool {
+    !u.to_array().iter().all(|x| (0.0..1.0).contains(x))
+}
+
+/// The outputs in the order of the kernels.
+fn outputs<'a, T: Number>(
+    wi: &'a mut PyReadwriteArray1<'_, T>,
+    weight: &'a mut PyReadwriteArray1<'_, T>,
+    pdf: &'a mut PyReadwriteArray1<'_, T>,
     delta: &'a mut [bool],
+    planar: bool,
+) -> PyResult<Vec<batch::Target<'a, T>>> {
+    let (wi, weight) = (wi.as_slice_mut().map_err(value_error)?, weight.as_slice_mut().map_err(value_error)?);
+    let (pdf, n) = (pdf.as_slice_mut().map_err(value_error)?, delta.len());
+    if rows_of(wi, 3)? != n || rows_of(weight, CHANNELS)? != n || pdf.len() != n {
+        return Err(value_error(format!("the outputs need {n} rows")));
+    }
+    let mut all = targets(wi, 3, planar);
+    all.extend(targets(weight, CHANNELS, planar));
+    all.extend([batch::Target::Row(pdf), batch::Target::Flags(delta)]);
+    Ok(all)
 }
 
-impl<'a, T: Number> Chunk<'a, T> {
-    fn new(
-        wi: &'a mut PyReadwriteArray1<'_, T>,
-        weight: &'a mut PyReadwriteArray1<'_, T>,
-        pdf: &'a mut PyReadwriteArray1<'_, T>,
-        delta: &'a mut [bool],
-    ) -> PyResult<Chunk<'a, T>> {
-        let (wi, weight) = (wi.as_slice_mut().map_err(value_error)?, weight.as_slice_mut().map_err(value_error)?);
-        let (pdf, n) = (pdf.as_slice_mut().map_err(value_error)?, delta.len());
-        if wi.len() != 3 * n || weight.len() != CHANNELS * n || pdf.len() != n {
-            return Err(value_error(format!("the outputs need {n} rows")));
-        }
-        Ok(Chunk { wi, weight, pdf, delta })
-    }
-
-    fn cut(self, size: usize) -> Vec<Chunk<'a, T>> {
-        let vectors = self.wi.chunks_mut(3 * size).zip(self.weight.chunks_mut(CHANNELS * size));
-        let numbers = self.pdf.chunks_mut(size).zip(self.delta.chunks_mut(size));
-        vectors.zip(numbers).map(|((wi, weight), (pdf, delta))| Chunk { wi, weight, pdf, delta }).collect()
-    }
-
-    /// Takes outputs that stand one after the other, each with a value per draw.
-    fn fill(self, outputs: &[T]) {
-        let n = self.delta.len();
-        let output = |c: usize| &outputs[c * n..(c + 1) * n];
-        for (target, first, width) in [(self.wi, 0, 3), (self.weight, 3, CHANNELS)] {
-            for c in 0..width {
-                for (row, value) in target.chunks_exact_mut(width).zip(output(first + c)) {
-                    row[c] = *value;
-                }
-            }
-        }
-        self.pdf.copy_from_slice(output(3 + CHANNELS));
-        for (taken, value) in self.delta.iter_mut().zip(output(4 + CHANNELS)) {
-            *taken = !value.is_zero();
-        }
-    }
+/// Three numbers in [0, 1) that depend on the seed and the index of the draw only.
+fn numbers<T: Number>(seed: u64, i: usize) -> [T; 3] {
+    let i = i as u64;
+    let mut stream = Stream::new(seed, (i >> 32) as u32, i as u32);
+    std::array::from_fn(|_| T::random(&mut stream))
 }
 
-/// Draws in one number type; outputs stand one after the other. Returns how many directions were not of unit length.
-trait Draw<T>: Sync {
-    fn draw(&self, rows: &Rows<T>, u: Option<&[T]>, out: &mut [T]) -> usize;
-}
-
-fn run<T: Number>(inputs: &[crate::arrays::Input], seed: Option<u64>, all: Chunk<T>, draws: &impl Draw<T>) -> usize {
-    let n = all.delta.len();
-    in_parts(
-        inputs,
-        n,
-        BLOCK,
-        |size| all.cut(size),
-        |rows: &Rows<T>, chunk: Chunk<T>| {
-            let random = seed.map(|seed| random::<T>(seed, rows.start, rows.n));
-            let mut outputs = vec![T::default(); DRAW_OUTPUTS * rows.n];
-            let odd = draws.draw(rows, random.as_deref(), &mut outputs);
-            chunk.fill(&outputs);
-            odd
-        },
-    )
-}
-
-/// Three numbers in [0, 1) for each of some draws, which depend on the seed and the index of the draw only.
-fn random<T: Number>(seed: u64, start: usize, n: usize) -> Vec<T> {
-    let mut out = Vec::with_capacity(3 * n);
-    for i in start as u64..(start + n) as u64 {
-        let mut stream = Stream::new(seed, (i >> 32) as u32, i as u32);
-        out.extend((0..3).map(|_| T::random(&mut stream)));
-    }
-    out
-}
-
-/// float32, by the kernels.
-struct Kernels(&'static dyn Scatter);
-
-impl Draw<f32> for Kernels {
-    fn draw(&self, rows: &Rows<f32>, u: Option<&[f32]>, out: &mut [f32]) -> usize {
-        let (params, given, wo) = columns(rows);
-        let u = u.map_or(given, |u| Column::interleaved(u, rows.n));
-        let mut outputs: Vec<&mut [f32]> = out.chunks_mut(rows.n).collect();
-        batch::draw(self.0, Isa::current(), &params, u, wo, rows.n, Out::Rows(&mut outputs))
-    }
-}
-
-/// float64, by the reference formulas.
-struct Reference(&'static Methods<f64>);
-
-impl Draw<f64> for Reference {
-    fn draw(&self, rows: &Rows<f64>, u: Option<&[f64]>, out: &mut [f64]) -> usize {
-        let (n, count) = (rows.n, rows.len() - 2);
-        let mut params = vec![0.0; count];
-        let mut odd = 0;
-        for i in 0..n {
-            flat(rows, i, &mut params);
-            let wo = vector(rows, count + 1, i);
-            let u = u.map_or(vector(rows, count, i).to_array(), |u| [u[3 * i], u[3 * i + 1], u[3 * i + 2]]);
-            let s = (self.0.draw)(&params, wo, u);
-            let values = s.wi.to_array().into_iter().chain(s.weight.0).chain([s.pdf, s.delta]);
-            for (c, value) in values.enumerate() {
-                out[c * n + i] = value;
-            }
-            odd += usize::from(is_odd(wo));
-        }
-        odd
-    }
+/// The numbers of some draws, one draw after the other.
+fn random(seed: u64, start: usize, n: usize) -> Vec<f32> {
+    (start..start + n).flat_map(|i| numbers(seed, i)).collect()
 }
 
 /// Points `start..start + n` of an Owen-scrambled Sobol sequence in three dimensions, in [0, 1), one after the other.

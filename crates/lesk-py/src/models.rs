@@ -1,8 +1,8 @@
 //! Models over NumPy arrays.
 
-use crate::arrays::{Input, Number, Rows, Source, in_parts, share};
+use crate::arrays::{Input, Number, Part, Rows, Source, cut, in_parts, put, share};
 use crate::value_error;
-use lesk_bsdf::batch::{self, Column, Out, UNIT_TOLERANCE};
+use lesk_bsdf::batch::{self, Column, UNIT_TOLERANCE};
 use lesk_bsdf::bsdf::in_domain;
 use lesk_bsdf::model::Domain;
 use lesk_bsdf::scatter::{Methods, Scatter};
@@ -111,17 +111,29 @@ pub fn rows_of<T>(out: &[T], width: usize) -> PyResult<usize> {
     }
 }
 
+/// A flat output of rows: one after the other, or (`planar`) one component after the other.
+pub fn targets<T>(out: &mut [T], width: usize, planar: bool) -> Vec<batch::Target<'_, T>> {
+    match (width, planar) {
+        (1, _) => vec![batch::Target::Row(out)],
+        (_, true) => out.chunks_mut((out.len() / width).max(1)).map(batch::Target::Row).collect(),
+        (_, false) => vec![batch::Target::Interleaved(out, width)],
+    }
+}
+
 /// The columns of parameters and of two vectors.
 pub fn columns<'a>(rows: &Rows<'a, f32>) -> (Vec<Column<'a>>, [Column<'a>; 3], [Column<'a>; 3]) {
     let count = rows.len() - 2;
-    let param = |(values, uniform): (&'a [f32], bool)| {
-        if uniform { Column::uniform(&values[0]) } else { Column::contiguous(values) }
+    let param = |j: usize| match rows.input(j) {
+        (Part::Rows(values), true) => Column::uniform(&values[0]),
+        (Part::Rows(values), false) => Column::contiguous(values),
+        (Part::Planes([values, ..]), _) => Column::contiguous(values),
     };
-    let vectors = |(values, uniform): (&'a [f32], bool)| {
-        if uniform { [0, 1, 2].map(|c| Column::uniform(&values[c])) } else { Column::interleaved(values, rows.n) }
+    let vectors = |j: usize| match rows.input(j) {
+        (Part::Rows(values), true) => [0, 1, 2].map(|c| Column::uniform(&values[c])),
+        (Part::Rows(values), false) => Column::interleaved(values, rows.n),
+        (Part::Planes(planes), _) => planes.map(Column::contiguous),
     };
-    let flat = (0..count).map(|j| param(rows.input(j))).collect();
-    (flat, vectors(rows.input(count)), vectors(rows.input(count + 1)))
+    ((0..count).map(param).collect(), vectors(count), vectors(count + 1))
 }
 
 /// `eval` (out: n rows of channels) or `pdf` (n numbers). Returns how many directions were not of unit length.
@@ -136,6 +148,7 @@ pub fn evaluate(
     wi: Source<'_>,
     wo: Source<'_>,
     out: Target<'_>,
+    planar: bool,
 ) -> PyResult<usize> {
     let model = find(id)?;
     let is_eval = match what {
@@ -148,24 +161,24 @@ pub fn evaluate(
         Target::Single(mut out) => {
             let out = out.as_slice_mut().map_err(value_error)?;
             let n = rows_of(out, width)?;
-            let inputs = inputs(model, &params, &[&wi, &wo], n)?;
+            let inputs = planes(inputs(model, &params, &[&wi, &wo], n)?);
             let (isa, run) = (Isa::current(), if is_eval { batch::eval } else { batch::pdf });
             Ok(py.detach(|| {
                 in_parts(
                     &inputs,
                     n,
                     share(n, GRAIN),
-                    |size| out.chunks_mut(size * width).collect(),
-                    |rows: &Rows<f32>, out| {
+                    |size| cut(targets(out, width, planar), size),
+                    |rows: &Rows<f32>, mut out| {
                         let (params, wi, wo) = columns(rows);
-                        run(model, isa, &params, wi, wo, rows.n, Out::Interleaved(out))
+                        run(model, isa, &params, wi, wo, rows.n, &mut out)
                     },
                 )
             }))
         }
         out => {
             let methods = reference(model)?;
-            reference_rows(py, model, &params, [&wi, &wo], width, out, |p, wi, wo, row| {
+            reference_rows(py, model, &params, [&wi, &wo], width, planar, out, |p, wi, wo, row| {
                 if is_eval {
                     row.copy_from_slice(&(methods.eval)(p, wi, wo).0);
                 } else {
@@ -176,31 +189,35 @@ pub fn evaluate(
     }
 }
 
+/// Inputs that are read as they lie, rows or planes.
+pub fn planes(inputs: Vec<Input>) -> Vec<Input> {
+    inputs.into_iter().map(Input::allow_planes).collect()
+}
+
 /// Runs a reference formula for each direction, in float64, and rounds its row to the type of the output. Returns how
-/// many vectors were not of unit length.
-fn each<T: Number>(
+/// many of the first vectors are odd and of the second not of unit length.
+pub fn each<T: Number>(
     inputs: &[Input],
     width: usize,
-    out: &mut [T],
-    run: impl Fn(&[f64], Vec3<f64>, Vec3<f64>, &mut [f64]) + Sync,
+    targets: Vec<batch::Target<T>>,
+    is_first_odd: fn(Vec3<f64>) -> bool,
+    run: impl Fn(usize, &[f64], Vec3<f64>, Vec3<f64>, &mut [f64]) + Sync,
 ) -> usize {
-    let (n, count) = (out.len() / width, inputs.len() - 2);
+    let (n, count) = (targets.first().map_or(0, batch::Target::rows), inputs.len() - 2);
     in_parts(
         inputs,
         n,
         share(n, REFERENCE_GRAIN),
-        |size| out.chunks_mut(size * width).collect(),
-        |rows: &Rows<f64>, out: &mut [T]| {
+        |size| cut(targets, size),
+        |rows: &Rows<f64>, mut out: Vec<batch::Target<T>>| {
             let (mut params, mut row) = (vec![0.0; count], vec![0.0; width]);
             let mut odd = 0;
-            for (i, out) in out.chunks_exact_mut(width).enumerate() {
+            for i in 0..rows.n {
                 flat(rows, i, &mut params);
                 let (first, second) = (vector(rows, count, i), vector(rows, count + 1, i));
-                odd += usize::from(is_odd(first)) + usize::from(is_odd(second));
-                run(&params, first, second, &mut row);
-                for (to, from) in out.iter_mut().zip(&row) {
-                    *to = T::from_f64(*from);
-                }
+                odd += usize::from(is_first_odd(first)) + usize::from(is_odd(second));
+                run(rows.start + i, &params, first, second, &mut row);
+                put(&mut out, i, &row);
             }
             odd
         },
@@ -220,7 +237,7 @@ pub fn gradient(
     let model = find(id)?;
     let derive = model.forms().gradient.ok_or_else(|| value_error(format!("model `{id}` has no exact derivatives")))?;
     let width = CHANNELS * model.param_count();
-    reference_rows(py, model, &params, [&wi, &wo], width, out, |p, wi, wo, row| {
+    reference_rows(py, model, &params, [&wi, &wo], width, false, out, |p, wi, wo, row| {
         derive(p, wi, wo, row);
     })
 }
@@ -232,7 +249,7 @@ pub fn delta(py: Python<'_>, id: &str, params: Vec<Source<'_>>, wo: Source<'_>, 
     let model = find(id)?;
     let (methods, domain) = (reference(model)?, model.model().domain);
     let lobe_width = 3 + CHANNELS + 1;
-    reference_rows(py, model, &params, [&wo, &wo], 2 * lobe_width, out, |p, _, wo, row| {
+    reference_rows(py, model, &params, [&wo, &wo], 2 * lobe_width, false, out, |p, _, wo, row| {
         row.fill(0.0);
         let lobes = if in_domain(domain, wo) { (methods.delta)(p, wo) } else { None };
         for (lobe, out) in lobes.iter().flatten().zip(row.chunks_exact_mut(lobe_width)) {
@@ -252,19 +269,23 @@ fn reference_rows(
     params: &[Source<'_>],
     vectors: [&Source<'_>; 2],
     width: usize,
+    planar: bool,
     out: Target<'_>,
     run: impl Fn(&[f64], Vec3<f64>, Vec3<f64>, &mut [f64]) + Sync,
 ) -> PyResult<usize> {
+    let run = |_, p: &[f64], first: Vec3<f64>, second: Vec3<f64>, row: &mut [f64]| run(p, first, second, row);
     match out {
         Target::Single(mut out) => {
             let out = out.as_slice_mut().map_err(value_error)?;
-            let inputs = inputs(model, params, &vectors, rows_of(out, width)?)?;
-            Ok(py.detach(|| each(&inputs, width, out, &run)))
+            let n = rows_of(out, width)?;
+            let inputs = inputs(model, params, &vectors, n)?;
+            Ok(py.detach(|| each(&inputs, width, targets(out, width, planar), is_odd, run)))
         }
         Target::Double(mut out) => {
             let out = out.as_slice_mut().map_err(value_error)?;
-            let inputs = inputs(model, params, &vectors, rows_of(out, width)?)?;
-            Ok(py.detach(|| each(&inputs, width, out, &run)))
+            let n = rows_of(out, width)?;
+            let inputs = inputs(model, params, &vectors, n)?;
+            Ok(py.detach(|| each(&inputs, width, targets(out, width, planar), is_odd, run)))
         }
     }
 }

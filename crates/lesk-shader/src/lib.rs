@@ -33,6 +33,7 @@ pub use language::{Language, Math, Options, Part, Product, Source};
 
 use lesk_bsdf::Scatter;
 use packed::{Op, Packed, Type};
+use std::sync::{Arc, Mutex, PoisonError};
 
 /// One function, ready to be lowered.
 struct Function {
@@ -62,12 +63,36 @@ pub fn export(model: &dyn Scatter, what: &[Part], language: Language, options: O
     if what.is_empty() || what.iter().any(repeated) {
         return Err(Error::Parts { asked: what.iter().map(|part| part.name()).collect() });
     }
-    let unit = unit(model, what, options.math)?;
+    let unit = last_unit(model, what, options.math)?;
     let source = backend::write(&unit, language, options.product)?;
     Ok(match source {
         Source::Text(text) => Source::Text(header::with_header(&text, model, what, language, options)),
         binary => binary,
     })
+}
+
+/// What a unit was made from: the recorded formulas of a model, parts and whose elementary functions.
+#[derive(PartialEq)]
+struct Key {
+    /// Where they stand in memory, forever: no two models share a place.
+    formulas: usize,
+    parts: Vec<Part>,
+    math: Math,
+}
+
+/// [`unit`], kept until another one is asked for: one after the other, a model is usually written in several languages,
+/// and making the unit takes half of the time.
+fn last_unit(model: &dyn Scatter, what: &[Part], math: Math) -> Result<Arc<Unit>, Error> {
+    static LAST: Mutex<Option<(Key, Arc<Unit>)>> = Mutex::new(None);
+    let formulas = model.forms().recorded.map_or(0, |formulas| std::ptr::from_ref(formulas).addr());
+    let key = Key { formulas, parts: what.to_vec(), math };
+    let mut last = LAST.lock().unwrap_or_else(PoisonError::into_inner);
+    if let Some((_, unit)) = last.as_ref().filter(|(made_from, _)| *made_from == key) {
+        return Ok(unit.clone());
+    }
+    let unit = Arc::new(unit(model, what, math)?);
+    *last = Some((key, unit.clone()));
+    Ok(unit)
 }
 
 fn unit(model: &dyn Scatter, what: &[Part], math: Math) -> Result<Unit, Error> {

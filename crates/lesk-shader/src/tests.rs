@@ -255,3 +255,23 @@ fn a_cross_product_of_shared_components_packs_without_end() {
         assert!((x - y).abs() < 64.0 * f64::EPSILON);
     }
 }
+
+/// The unit that was made last is kept: neither another model nor other parts or functions may get it.
+#[test]
+fn what_was_written_before_does_not_matter() {
+    let mut asked = Vec::new();
+    for id in ["ward", "ggx"] {
+        for parts in [&[Part::Eval][..], &[Part::Eval, Part::Pdf], &[Part::Pdf]] {
+            asked.extend([Math::Builtin, Math::Exact].map(|math| (id, parts, math)));
+        }
+    }
+    let write = |&(id, parts, math): &(&str, &[Part], Math)| {
+        let options = crate::Options { math, ..crate::Options::default() };
+        let model = registry::find(id).expect("a model of the registry");
+        crate::export(model, parts, crate::Language::Wgsl, options).expect("a model that can be written")
+    };
+    let forward: Vec<_> = asked.iter().map(write).collect();
+    let mut backward: Vec<_> = asked.iter().rev().map(write).collect();
+    backward.reverse();
+    assert_eq!(forward, backward);
+}
