@@ -68,7 +68,7 @@ def output(
         if fits and out.flags.aligned and not any(np.may_share_memory(out, a) for a in inputs):
             return Output(out, (np.moveaxis(out, -1, 0) if planar else out).reshape(-1), None)
     flat = _empty(math.prod(leading) * math.prod(tail), dtype)
-    array = np.moveaxis(flat.reshape(*tail, *leading), 0, -1) if planar else flat.reshape(*leading, *tail)
+    array = np.moveaxis(flat.reshape((*tail, *leading)), 0, -1) if planar else flat.reshape((*leading, *tail))
     return Output(array, flat, out)
 
 
