@@ -201,13 +201,8 @@ fn is_isotropic(material: &Material) -> bool {
 
 fn evaluate(kernel: Kernel, n: usize, params: &[&[f32]], uniform: bool, work: &mut Work) {
     let (wi, wo) = (&work.wi_local, &work.wo_local);
-    let block = Block {
-        n,
-        params,
-        uniform,
-        first: [&wi[0][..n], &wi[1][..n], &wi[2][..n]],
-        second: [&wo[0][..n], &wo[1][..n], &wo[2][..n]],
-    };
+    let [wi, wo] = [wi, wo].map(|w| [&w[0][..n], &w[1][..n], &w[2][..n]]);
+    let block = Block { n, params, uniform, directions: [wi[0], wi[1], wi[2], wo[0], wo[1], wo[2]] };
     // SAFETY: the kernel is one of an instruction set that this processor has
     unsafe { kernel(&block, &mut work.f) };
 }
