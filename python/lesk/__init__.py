@@ -17,6 +17,7 @@ pictures come from that one definition.
 - `lesk.light`: luminaires from IES and EULUMDAT files.
 - `lesk.measure`, `lesk.lux`: illuminance, luminance and glare at the sensors of a scene, with standard errors.
 - `lesk.shade`, `lesk.mesh`: flat, Gouraud and Phong shading by a rasteriser; what a mesh file holds.
+- `lesk.quantity`, `lesk.spectrum`, `lesk.color`: light in units, with every assumption of a conversion named.
 - `lesk.render`, `lesk.scene`, `lesk.image`: pictures in cd/m², from a scene file to EXR, HDR and PNG.
 
 Nothing is loaded before it is used: `import lesk` takes a few milliseconds.
@@ -40,20 +41,23 @@ from lesk.errors import (
 )
 
 if TYPE_CHECKING:
-    from lesk import f0, figures, image, light, mesh, models, plot, scene, terms
+    from lesk import color, f0, figures, image, light, mesh, models, plot, scene, terms
     from lesk._check import CheckReport, check
     from lesk._compare_shading import Comparison, compare_shading
     from lesk._lesk import __version__
     from lesk._lux import LuxReport, lux
     from lesk._measure import Measurement, MeasureProgress, Readings, measure
     from lesk._model import Delta, Model, Sample
+    from lesk._quantity import Quantity, quantity
     from lesk._raster import Classic, Shading, shade
     from lesk._render import Progress, Render, render
+    from lesk._spectrum import ColorRendering, Spectrum, spectrum
 
-_MODULES = ("f0", "figures", "image", "light", "mesh", "models", "plot", "scene", "terms")
+_MODULES = ("color", "f0", "figures", "image", "light", "mesh", "models", "plot", "scene", "terms")
 _NAMES = {
     "CheckReport": "_check",
     "Classic": "_raster",
+    "ColorRendering": "_spectrum",
     "Comparison": "_compare_shading",
     "Delta": "_model",
     "LuxReport": "_lux",
@@ -61,23 +65,28 @@ _NAMES = {
     "Measurement": "_measure",
     "Model": "_model",
     "Progress": "_render",
+    "Quantity": "_quantity",
     "Readings": "_measure",
     "Render": "_render",
     "Sample": "_model",
     "Shading": "_raster",
+    "Spectrum": "_spectrum",
     "__version__": "_lesk",
     "check": "_check",
     "compare_shading": "_compare_shading",
     "lux": "_lux",
     "measure": "_measure",
+    "quantity": "_quantity",
     "render": "_render",
     "shade": "_raster",
+    "spectrum": "_spectrum",
 }
 
 __all__ = [
     "CheckReport",
     "CheckpointError",
     "Classic",
+    "ColorRendering",
     "Comparison",
     "Delta",
     "FileError",
@@ -91,14 +100,17 @@ __all__ = [
     "Model",
     "ParameterError",
     "Progress",
+    "Quantity",
     "Readings",
     "Render",
     "RenderInterrupted",
     "Sample",
     "SceneError",
     "Shading",
+    "Spectrum",
     "__version__",
     "check",
+    "color",
     "compare_shading",
     "f0",
     "figures",
@@ -109,9 +121,11 @@ __all__ = [
     "mesh",
     "models",
     "plot",
+    "quantity",
     "render",
     "scene",
     "shade",
+    "spectrum",
     "terms",
 ]
 

@@ -27,22 +27,39 @@ IDEAS = (
         ("light_paths",),
         ("lesk render examples/scenes/light_paths.toml --split direct,indirect,specular,caustic -o paths.exr",),
     ),
-    Idea("Radiant flux, photons", "Φ = dQ/dt; E = h f; 1 W at 600 nm is 3e18 photons/s", open="photon counts"),
+    Idea(
+        "Radiant flux, photons",
+        "Φ = dQ/dt; E = h f; 1 W at 600 nm is 3e18 photons/s",
+        commands=('lesk quantity "1 W @ 600 nm" --to photons/s', 'lesk quantity "600 nm" --to J'),
+    ),
     Idea(
         "Radiosity, irradiance, intensity, radiance",
         "dΦ/dA, dΦ/dω, d²Φ/(cosθ dA dω); sensors respond to radiance",
-        commands=("lesk render examples/scenes/lights_in_all_units.toml -o lights.exr",),
-        open="a page of units and names",
+        commands=(
+            "lesk render examples/scenes/lights_in_all_units.toml -o lights.exr",
+            'lesk quantity "500 lx" --to cd/m2 --reflectance 80%',
+        ),
     ),
     Idea(
         "Radiometry and photometry",
         "P = K_m ∫ V R dλ",
-        commands=("lesk lecture errata k_m",),
-        open="spectra on the command line",
+        commands=(
+            "lesk lecture errata k_m",
+            'lesk quantity "1 W @ D65" --to lm --km 680 --range 380:770',
+            "lesk spectrum D65",
+        ),
     ),
-    Idea("Table of quantities", "names in English and Czech, symbols, units", open="a page of units and names"),
-    Idea("The Sun", "3.86e26 W at 1.5e11 m: 1365 W/m², 546 W/m² visible", open="an exercise to compute with"),
-    Idea("LED bulb", "1100 lm at 1.5 m: 38.9 lx; 50, 100, 300 lx wanted", open="an exercise to compute with"),
+    Idea("Table of quantities", "names in English and Czech, symbols, units", commands=("lesk quantity --units",)),
+    Idea(
+        "The Sun",
+        "3.86e26 W at 1.5e11 m: 1365 W/m², 546 W/m² visible",
+        commands=('lesk quantity "3.86e26 W" --to W/m2 --at 1.5e11m --bands',),
+    ),
+    Idea(
+        "LED bulb",
+        "1100 lm at 1.5 m: 38.9 lx; 50, 100, 300 lx wanted",
+        commands=('lesk quantity "1100 lm" --to lx --at 1.5m',),
+    ),
     Idea("Light sources", "directional, point, spot, area, environment", ("light_sources",)),
     Idea(
         "Light reflection at a surface",

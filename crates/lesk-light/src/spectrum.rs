@@ -1,7 +1,9 @@
 //! Named spectra: what a watt is worth in lumens, and in which colour.
 
 use crate::error::LightError;
-use lesk_quantities::{Dimension, K_M, Quantity, colorspace, photometry, radiometry};
+use lesk_quantities::observer::Observer;
+use lesk_quantities::photometry::{Range, Vision};
+use lesk_quantities::{Dimension, K_M, Quantity, colorimetry, colorspace, radiometry};
 use std::fmt;
 
 /// A spectrum by name.
@@ -20,17 +22,17 @@ pub enum Spectrum {
     D65,
     /// Planck's law at this temperature in K.
     Blackbody(f64),
+    /// Another illuminant of the CIE, by one of [`lesk_quantities::Spectrum::names`].
+    Named(&'static str),
 }
-
-/// Luminous efficacy of D50 and D65 over 380 to 780 nm, lm/W: colour-science 0.4.7 tables, trapezoid at 1 nm.
-const EFFICACY_D50: f64 = 207.70;
-const EFFICACY_D65: f64 = 205.15;
 
 impl Spectrum {
     /// What [`parse`](Self::parse) accepts.
-    pub const ACCEPTED: &str = "`E`, `A`, `D50`, `D65` or `blackbody 2700 K`";
+    pub const ACCEPTED: &str =
+        "`E`, `A`, `D50`, `D65`, `FL2`, `LED-B3` or another illuminant of the CIE, or `blackbody 2700 K`";
 
-    /// Reads `E`, `A`, `D50`, `D65` or `blackbody T` with T from 500 K to 100000 K.
+    /// Reads `E`, `A`, `D50`, `D65`, another illuminant (`FL2`, `LED-B3`; `lesk spectrum --names` lists them), or
+    /// `blackbody T` with T from 500 K to 100000 K.
     ///
     /// # Errors
     /// Any other text.
@@ -44,11 +46,10 @@ impl Spectrum {
             "A" => Ok(Self::A),
             "D50" => Ok(Self::D50),
             "D65" => Ok(Self::D65),
-            _ => Err(LightError::new(format!(
-                "unknown spectrum `{}`, {} is accepted",
-                name.chars().take(40).collect::<String>(),
-                Self::ACCEPTED
-            ))),
+            _ => lesk_quantities::Spectrum::names().find(|known| *known == name).map(Self::Named).ok_or_else(|| {
+                let given: String = name.chars().take(40).collect();
+                LightError::new(format!("unknown spectrum `{given}`, {} is accepted", Self::ACCEPTED))
+            }),
         }
     }
 
@@ -63,25 +64,28 @@ impl Spectrum {
 
     /// Luminous efficacy of radiation, lm/W.
     pub fn efficacy(self) -> f64 {
-        let range = photometry::Range::VISIBLE;
         match self {
-            Self::E => photometry::efficacy(range, |_| 1.0),
-            Self::A => photometry::efficacy(range, illuminant_a),
-            Self::D50 => EFFICACY_D50,
-            Self::D65 => EFFICACY_D65,
             Self::Blackbody(t) => radiometry::blackbody_efficacy(t),
+            _ => self.illuminant().efficacy(Some(Range::VISIBLE), Vision::Photopic),
         }
     }
 
     /// The colour in linear Rec.709, scaled to luminance Y = 1.
     pub fn rgb(self) -> [f64; 3] {
         match self {
-            Self::E => from_xy(1.0 / 3.0, 1.0 / 3.0),
-            Self::D50 => from_xy(0.34567, 0.35850), // CIE 15
+            Self::E => from_xy([1.0 / 3.0; 2]),
+            Self::D50 => from_xy([0.34567, 0.35850]), // CIE 15
             Self::D65 => [1.0; 3],
-            Self::A => from_xy(0.44757, 0.40745), // CIE 15
+            Self::A => from_xy([0.44757, 0.40745]), // CIE 15
             Self::Blackbody(t) => radiometry::blackbody_rgb(t).unwrap_or([1.0; 3]),
+            Self::Named(_) => from_xy(colorimetry::xy(self.illuminant().xyz(Observer::Cie1931))),
         }
+    }
+
+    /// The spectrum itself.
+    fn illuminant(self) -> lesk_quantities::Spectrum {
+        lesk_quantities::Spectrum::parse(&self.to_string())
+            .unwrap_or_else(|_| lesk_quantities::Spectrum::equal_energy())
     }
 
     /// How watts became lumens, for reports: `16.45 lm/W (blackbody 2856 K, whole spectrum, K_m = 683.002 lm/W)`.
@@ -99,17 +103,13 @@ impl fmt::Display for Spectrum {
             Self::D50 => f.write_str("D50"),
             Self::D65 => f.write_str("D65"),
             Self::Blackbody(t) => write!(f, "blackbody {t} K"),
+            Self::Named(name) => f.write_str(name),
         }
     }
 }
 
-/// CIE 15, illuminant A per nm, without its factor.
-fn illuminant_a(nm: f64) -> f64 {
-    nm.powi(-5) / (1.435e7 / (2848.0 * nm)).exp_m1()
-}
-
 /// The colour of a chromaticity with Y = 1; a negative channel is set to zero, and the rest scaled back to Y = 1.
-fn from_xy(x: f64, y: f64) -> [f64; 3] {
+fn from_xy([x, y]: [f64; 2]) -> [f64; 3] {
     let rgb = colorspace::rec709_from_xyz([x / y, 1.0, (1.0 - x - y) / y]).map(|v| v.max(0.0));
     let luminance = colorspace::luminance(rgb);
     rgb.map(|v| v / luminance)

@@ -171,6 +171,8 @@ fn efficacies_of_named_spectra_are_those_printed() {
         ("A", 156.20, 0.005),
         ("D50", 207.70, 0.005),
         ("D65", 205.15, 0.005),
+        ("FL2", 336.73, 0.005),
+        ("LED-B3", 316.88, 0.005),
         ("blackbody 2856 K", 16.446, 5e-4),
         ("blackbody 6500 K", 95.36, 5e-3),
     ] {
@@ -182,7 +184,7 @@ fn efficacies_of_named_spectra_are_those_printed() {
 
 #[test]
 fn colours_of_spectra_have_luminance_one_and_d65_is_white() {
-    for name in ["E", "A", "D50", "D65", "blackbody 2700 K", "blackbody 1000 K"] {
+    for name in ["E", "A", "D50", "D65", "FL2", "HP1", "blackbody 2700 K", "blackbody 1000 K"] {
         let rgb = Spectrum::parse(name).unwrap().rgb();
         assert!((lesk_quantities::colorspace::luminance(rgb) - 1.0).abs() < 1e-12, "{name}");
         assert!(rgb.iter().all(|c| *c >= 0.0));

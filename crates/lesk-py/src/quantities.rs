@@ -84,6 +84,17 @@ fn observer_of(name: &str) -> PyResult<Observer> {
         .ok_or_else(|| errors::parameter(format!("there is no observer `{name}`, {known} are accepted")))
 }
 
+impl PySpectrum {
+    /// A ratio is not finite where there is no light to divide by.
+    fn finite(&self, ratio: f64) -> PyResult<f64> {
+        if ratio.is_finite() {
+            Ok(ratio)
+        } else {
+            Err(errors::parameter(format!("`{}` has no light within this range", self.0)))
+        }
+    }
+}
+
 #[pymethods]
 impl PySpectrum {
     /// Reads a name.
@@ -120,7 +131,7 @@ impl PySpectrum {
 
     fn efficacy(&self, range: Option<&str>, scotopic: bool) -> PyResult<f64> {
         let vision = if scotopic { Vision::Scotopic } else { Vision::Photopic };
-        Ok(self.0.efficacy(range_of(range)?.or(self.0.range()), vision))
+        self.finite(self.0.efficacy(range_of(range)?.or(self.0.range()), vision))
     }
 
     fn energy(&self, range: Option<&str>) -> PyResult<f64> {
@@ -128,7 +139,7 @@ impl PySpectrum {
     }
 
     fn photons_per_joule(&self, range: Option<&str>) -> PyResult<f64> {
-        Ok(self.0.photons_per_joule(range_of(range)?))
+        self.finite(self.0.photons_per_joule(range_of(range)?))
     }
 
     fn xyz(&self, observer: &str) -> PyResult<[f64; 3]> {

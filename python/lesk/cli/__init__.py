@@ -12,6 +12,8 @@ COMMANDS = {
     "check": "Run the claims of a model, or of all.",
     "shader": "Write a model as shader source.",
     "light": "Read a luminaire file: flux, angles, glare, pictures, conversion.",
+    "quantity": "Convert a quantity of light; every assumption is named.",
+    "spectrum": "Say what a light is: colour, temperature, rendering, efficacy.",
     "render": "Render a scene.",
     "lux": "Measure the sensors of a scene and check them.",
     "falsecolor": "Show luminance or illuminance in false colours.",

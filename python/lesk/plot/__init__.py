@@ -14,7 +14,8 @@ from lesk.plot._lobe3d import lobe3d
 from lesk.plot._luminaire import intensity, web
 from lesk.plot._polar import polar
 from lesk.plot._slice import slice
+from lesk.plot._spectrum import observers, spectrum
 from lesk.plot._sphere import sphere
 from lesk.plot._term import term
 
-__all__ = ["Plot", "albedo", "intensity", "lobe3d", "polar", "slice", "sphere", "term", "web"]
+__all__ = ["Plot", "albedo", "intensity", "lobe3d", "observers", "polar", "slice", "spectrum", "sphere", "term", "web"]

@@ -59,7 +59,7 @@ impl Spectrum {
     pub fn gaussian(peak_nm: f64, width_nm: f64) -> Result<Spectrum, QuantityError> {
         within("peak", peak_nm, 100.0, 1e4, "100 nm to 10000 nm")?;
         within("width", width_nm, 1.0, 1e3, "1 nm to 1000 nm")?;
-        let name = format!("gaussian {peak_nm} nm, {width_nm} nm wide");
+        let name = format!("gaussian {peak_nm} nm, {width_nm} nm");
         Ok(Spectrum { name, shape: Shape::Gaussian(peak_nm, width_nm) })
     }
 

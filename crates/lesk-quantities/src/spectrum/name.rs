@@ -34,10 +34,13 @@ impl Spectrum {
             "a" => return Ok(Spectrum { name: "A".into(), shape: Shape::A }),
             _ => {}
         }
-        if let Some(number) = lower.strip_prefix('d')
-            && let Ok(number) = number.parse::<u32>()
-        {
-            return Self::named_daylight(number);
+        if let Some(rest) = name.strip_prefix(['D', 'd']) {
+            if let Ok(number) = rest.parse::<u32>() {
+                return Self::named_daylight(number);
+            }
+            if let Ok(kelvin) = Quantity::parse_as(rest, &[Dimension::Temperature]) {
+                return Self::daylight(kelvin.si());
+            }
         }
         if let Some(column) = column(&lower) {
             return Ok(Spectrum { name: table::ILLUMINANTS.names[column].into(), shape: Shape::Column(column) });

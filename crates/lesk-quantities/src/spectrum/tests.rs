@@ -18,10 +18,13 @@ fn every_listed_name_is_read_and_keeps_its_name() {
         ("Blackbody 2856 K", "blackbody 2856 K"),
         ("600nm", "600 nm"),
         ("0.6 um", "600 nm"),
-        ("gaussian:450nm,20nm", "gaussian 450 nm, 20 nm wide"),
+        ("gaussian:450nm,20nm", "gaussian 450 nm, 20 nm"),
         ("d6504", "D6504"),
+        ("D 6504.5 K", "D 6504.5 K"),
     ] {
-        assert_eq!(Spectrum::parse(text).unwrap().name(), name, "{text}");
+        let spectrum = Spectrum::parse(text).unwrap();
+        assert_eq!(spectrum.name(), name, "{text}");
+        assert_eq!(Spectrum::parse(name).unwrap(), spectrum, "{text}");
     }
 }
 

@@ -162,7 +162,7 @@ const TEMPERATURE: Field =
 const SPECTRUM: Field = field(
     "spectrum",
     Kind::Text,
-    "E, A, D50, D65 or \"blackbody 2700 K\", instead of `color`; needed for amounts in watts.",
+    "E, A, D50, D65, FL2, LED-B3 or another illuminant of the CIE, or \"blackbody 2700 K\", instead of `color`; needed for amounts in watts.",
 );
 const FLUX: Field = field("flux", Kind::Quantity(&[LuminousFlux, RadiantFlux], POSITIVE), "Flux, lm or W.");
 const INTENSITY: Field = field(
