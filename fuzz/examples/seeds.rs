@@ -29,6 +29,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let mut planes = Planes::new(40, 30)?;
     planes.push_image("", &picture)?;
     save("exr", "gradient.exr", &io::exr::encode(&planes)?)?;
+    save("spectrum", "lamp.csv", b"nm,W/m2/nm\n400,0.1\n550,1.5\n700,0.2\n")?;
+    save("quantity", "line.txt", b"1 W @ 600 nm")?;
     println!("seeds are in {}", corpus.display());
     Ok(())
 }

@@ -74,6 +74,23 @@ pub fn exr(bytes: &[u8]) {
     image(io::exr::decode(bytes).and_then(|planes| planes.picture()));
 }
 
+/// Tables of spectra.
+pub fn spectrum(bytes: &[u8]) {
+    if let Ok(light) = lesk_quantities::Spectrum::from_text("fuzz", &String::from_utf8_lossy(bytes)) {
+        assert!(light.energy(None) > 0.0 && light.energy(None).is_finite());
+        let _ = lesk_quantities::colorimetry::color_rendering(&light);
+    }
+}
+
+/// Quantities as text, like `1 W @ 600 nm`.
+pub fn quantity(bytes: &[u8]) {
+    let Ok(text) = std::str::from_utf8(bytes) else { return };
+    if let Ok(given) = lesk_quantities::conversion::Given::parse(text) {
+        let again = lesk_quantities::conversion::Given::parse(&given.to_string());
+        assert_eq!(again.as_ref(), Ok(&given));
+    }
+}
+
 /// Scene files. The folder that they name does not exist: the fuzzer opens no file.
 pub fn scene(bytes: &[u8]) {
     let Ok(text) = std::str::from_utf8(bytes) else { return };

@@ -134,6 +134,32 @@ def test_all_units_of_the_list_are_read(capsys):
         assert lesk.quantity(f"1 {row['symbol']}").dimension == row["measures"]
 
 
+def test_scenes_take_the_same_units_and_spectra():
+    text = """
+version = 1
+[camera]
+eye = [0, -4, 1]
+target = [0, 0, 0]
+fov = "40 deg"
+[materials.grey]
+model = "lambert"
+[[objects]]
+shape = "rectangle"
+width = "1 ft"
+height = "30 cm"
+material = "grey"
+light = { luminance = "100 fL" }
+[[lights]]
+type = "directional"
+direction = [0, 0, -1]
+illuminance = "20 uW/cm2"
+spectrum = "LED-B3"
+"""
+    scene = lesk.scene.parse(text)
+    # 0.2 W/m2 at 316.88 lm/W (lights.md 3.1)
+    assert any("63.37" in note and "LED-B3" in note for note in scene.notes), scene.notes
+
+
 def blocks() -> list[tuple[str, str]]:
     """Commands of the page with what it says that they print."""
     if not PAGE.is_file():
