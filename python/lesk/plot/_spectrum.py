@@ -46,7 +46,7 @@ def spectrum(lights: str | Path | Spectrum | Sequence[str | Path | Spectrum]) ->
             _curve(axes, light, CURVES[i % len(CURVES)], single=len(found) == 1)
         _rainbow(axes)
         axes.set(xlabel="wavelength, nm", ylabel="per nm, relative to the maximum", xlim=(360, 830), ylim=(-0.06, 1.06))
-        axes.legend()
+        fig.legend(loc="outside right upper")
     return fig
 
 
