@@ -24,6 +24,15 @@ impl Error {
         Error { place: String::new(), message: message.into(), hint: String::new() }
     }
 
+    /// A file that the system does not give, with its reason in lower case and without its number.
+    pub fn unreadable(error: &std::io::Error) -> Self {
+        let text = error.to_string();
+        let reason = text.split(" (os error").next().unwrap_or_default();
+        let mut chars = reason.chars();
+        let reason: String = chars.next().into_iter().flat_map(char::to_lowercase).chain(chars).collect();
+        Error::new(format!("cannot be read: {reason}"))
+    }
+
     /// The same error, placed: an outer place is put before an inner one.
     #[must_use]
     pub fn at(mut self, place: impl fmt::Display) -> Self {

@@ -41,6 +41,7 @@
 
 mod bounds;
 mod bvh;
+mod detail;
 mod error;
 pub mod import;
 mod mesh;
@@ -54,6 +55,7 @@ mod transform;
 
 pub use bounds::Bounds;
 pub use bvh::{World, WorldBuilder};
+pub use detail::Detail;
 pub use error::{Error, Result};
 pub use mesh::{MAX_COORDINATE, Mesh, MeshData, Repairs};
 pub use polygons::{EdgeRule, NormalRule, PolygonMesh};

@@ -17,8 +17,12 @@ pub struct MeshData {
     pub positions: Vec<Vec3<f32>>,
     /// Shading normals, one per position or none; any length but zero.
     pub normals: Vec<Vec3<f32>>,
-    /// Texture coordinates, one per position or none.
+    /// Texture coordinates, one per position or none; v runs upward.
     pub uvs: Vec<[f32; 2]>,
+    /// A second set of texture coordinates, one per position or none.
+    pub uvs_1: Vec<[f32; 2]>,
+    /// Tangents of normal maps, one per position or none: along growing u, and -1 where v grows against n x t, else 1.
+    pub tangents: Vec<[f32; 4]>,
     /// Three positions each, counter-clockwise seen from outside.
     pub triangles: Vec<[u32; 3]>,
 }
@@ -32,6 +36,8 @@ pub struct Repairs {
     pub replaced_normals: usize,
     /// Texture coordinates that are not finite, replaced by 0.
     pub replaced_uvs: usize,
+    /// Whether tangents were dropped, since some were no directions.
+    pub dropped_tangents: bool,
     /// Triangles that wound against their own normals, turned around.
     pub turned_triangles: usize,
 }
@@ -68,7 +74,8 @@ impl Mesh {
         let positions = &data.positions;
         data.triangles.retain(|&t| double_area_vector(positions, t).length_squared() > 0.0);
         let mut repairs = Repairs { degenerate_triangles: before - data.triangles.len(), ..Repairs::default() };
-        repairs.replaced_uvs = repair_uvs(&mut data.uvs);
+        repairs.replaced_uvs = repair_uvs(&mut data.uvs) + repair_uvs(&mut data.uvs_1);
+        repairs.dropped_tangents = drop_bad_tangents(&mut data.tangents);
         repairs.replaced_normals = repair_normals(&mut data);
         repairs.turned_triangles = turn_triangles(&mut data);
         Ok((Mesh { data, bounds, polygons: None }, repairs))
@@ -101,6 +108,44 @@ impl Mesh {
         &self.data.uvs
     }
 
+    /// The texture coordinates of set 0 or 1, one per position, or empty.
+    pub fn uv_list(&self, set: usize) -> &[[f32; 2]] {
+        if set == 0 { &self.data.uvs } else { &self.data.uvs_1 }
+    }
+
+    /// Texture coordinates of set 0 or 1 in triangle `index` at barycentric weights of its corners; `None` where the
+    /// mesh has none.
+    pub fn uv(&self, set: usize, index: usize, weights: [f64; 3]) -> Option<[f32; 2]> {
+        let list = self.uv_list(set);
+        let corners = self.data.triangles[index].map(|i| list.get(i as usize).map(|uv| uv.map(f64::from)));
+        let [Some(a), Some(b), Some(c)] = corners else { return None };
+        Some([0, 1].map(|k| (a[k] * weights[0] + b[k] * weights[1] + c[k] * weights[2]) as f32))
+    }
+
+    /// Tangents of normal maps, one per position, or empty: unit vector and hand, 1 or -1.
+    pub fn tangents(&self) -> &[[f32; 4]] {
+        &self.data.tangents
+    }
+
+    /// The mesh with a tangent per corner of its triangles: vertices whose corners differ become several.
+    pub(crate) fn split(&self, tangents: &[[f32; 4]]) -> Mesh {
+        let old = &self.data;
+        let mut data = MeshData { triangles: old.triangles.clone(), ..MeshData::default() };
+        let mut known = std::collections::HashMap::new();
+        for (vertex, tangent) in data.triangles.iter_mut().flatten().zip(tangents) {
+            let from = *vertex as usize;
+            *vertex = *known.entry((from, tangent.map(f32::to_bits))).or_insert_with(|| {
+                data.positions.push(old.positions[from]);
+                data.normals.extend(old.normals.get(from));
+                data.uvs.extend(old.uvs.get(from));
+                data.uvs_1.extend(old.uvs_1.get(from));
+                data.tangents.push(*tangent);
+                data.positions.len() as u32 - 1
+            });
+        }
+        Mesh { data, bounds: self.bounds }
+    }
+
     /// Three positions each, counter-clockwise seen from outside.
     pub fn triangles(&self) -> &[[u32; 3]] {
         &self.data.triangles
@@ -118,14 +163,17 @@ impl Mesh {
     }
 
     /// Replaces the normals by angle-weighted means of the faces around each vertex
-    /// (Thürmer & Wüthrich, *Computing Vertex Normals from Polygonal Facets*, 1998).
+    /// (Thürmer & Wüthrich, *Computing Vertex Normals from Polygonal Facets*, 1998). Drops tangents, which belong to the
+    /// old normals.
     pub fn smooth(&mut self) {
+        self.data.tangents = Vec::new();
         self.data.normals = angle_weighted_normals(&self.data.positions, &self.data.triangles);
         self.polygons = self.polygons.as_ref().map(|p| Arc::new(p.smoothed()));
     }
 
-    /// Drops the normals: every triangle is flat.
+    /// Drops normals and tangents: every triangle is flat.
     pub fn flatten(&mut self) {
+        self.data.tangents = Vec::new();
         self.data.normals = Vec::new();
         self.polygons = self.polygons.as_ref().map(|p| Arc::new(p.flattened()));
     }
@@ -150,7 +198,12 @@ pub(crate) fn double_area_vector(positions: &[Vec3<f32>], t: [u32; 3]) -> Vec3<f
 
 fn check_counts(data: &MeshData) -> Result<()> {
     let count = data.positions.len();
-    for (what, n) in [("normals", data.normals.len()), ("texture coordinates", data.uvs.len())] {
+    for (what, n) in [
+        ("normals", data.normals.len()),
+        ("texture coordinates", data.uvs.len()),
+        ("second texture coordinates", data.uvs_1.len()),
+        ("tangents", data.tangents.len()),
+    ] {
         if n != 0 && n != count {
             return Err(Error::new(format!(
                 "mesh has {n} {what} for {count} positions, one each or none are accepted"
@@ -203,6 +256,19 @@ fn repair_uvs(uvs: &mut [[f32; 2]]) -> usize {
         replaced += 1;
     }
     replaced
+}
+
+/// Tangents can be made anew, so that one which is no direction drops them all.
+fn drop_bad_tangents(tangents: &mut Vec<[f32; 4]>) -> bool {
+    let usable = |t: &[f32; 4]| {
+        let length = vec3(t[0], t[1], t[2]).length();
+        length.is_finite() && length > 1e-6 && t[3].is_finite()
+    };
+    let bad = !tangents.iter().all(usable);
+    if bad {
+        tangents.clear();
+    }
+    bad
 }
 
 fn repair_normals(data: &mut MeshData) -> usize {

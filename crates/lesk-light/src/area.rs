@@ -1,6 +1,7 @@
 //! A surface that shines.
 
 use crate::bounds::LightBounds;
+use crate::emission_map::EmissionMap;
 use crate::error::{LightError, check_color};
 use crate::sample::{LightSample, Receiver, Target, toward};
 use crate::triangle::Triangle;
@@ -8,7 +9,8 @@ use lesk_geometry::{AreaSampler, Bounds, Geometry, Surface, SurfaceSample, Trans
 use lesk_math::{Color, Vec3};
 use std::f64::consts::PI;
 
-/// A diffuse emitter: the same luminance from every point, into every direction of its outer side, or of both sides.
+/// A diffuse emitter: the same luminance into every direction of its outer side, or of both sides; from every point the
+/// same too, unless a mesh has an [`EmissionMap`].
 ///
 /// On a mesh, every triangle is a light of its own for the purpose of choosing.
 #[derive(Clone, Debug)]
@@ -17,6 +19,7 @@ pub struct Area {
     two_sided: bool,
     area: f64,
     form: Form,
+    map: Option<EmissionMap>,
 }
 
 #[derive(Clone, Debug)]
@@ -47,7 +50,7 @@ impl Area {
             }
             _ => Form::Whole(Box::new(sampler)),
         };
-        Ok(Area { luminance, two_sided, area, form })
+        Ok(Area { luminance, two_sided, area, form, map: None })
     }
 
     /// A placed geometry that emits the luminous flux in lm, from both sides together if it is two-sided: L = Φ / (π A).
@@ -68,7 +71,21 @@ impl Area {
         Ok(light)
     }
 
-    /// Luminance, cd/m².
+    /// The same light with its luminance multiplied by a picture on its mesh.
+    ///
+    /// # Errors
+    /// A light that is no mesh, or not the mesh of the map.
+    pub fn with_map(mut self, map: EmissionMap) -> Result<Self, LightError> {
+        match &self.form {
+            Form::Triangles(triangles) if triangles.len() == map.len() => {
+                self.map = Some(map);
+                Ok(self)
+            }
+            _ => Err(LightError::new("an emission map needs the mesh that it lies on")),
+        }
+    }
+
+    /// Luminance, cd/m²; where an emission map is, that of a white texel.
     pub fn luminance(&self) -> Color<f32> {
         self.luminance
     }
@@ -86,13 +103,39 @@ impl Area {
     /// Luminous flux of all sides, lm.
     pub fn flux(&self) -> f32 {
         let sides = if self.two_sided { 2.0 } else { 1.0 };
-        (PI * self.area * sides) as f32 * self.luminance.luminance()
+        let area = match (&self.form, &self.map) {
+            (Form::Triangles(triangles), Some(map)) => {
+                let lit = |(i, t): (usize, &Option<Triangle>)| {
+                    t.as_ref().map_or(0.0, |t| f64::from(t.area() * (self.luminance * map.mean(i)).luminance()))
+                };
+                return (PI * sides * triangles.iter().enumerate().map(lit).sum::<f64>()) as f32;
+            }
+            _ => self.area,
+        };
+        (PI * area * sides) as f32 * self.luminance.luminance()
     }
 
-    /// Luminance in cd/m² that leaves a point with the outer geometric normal `ng` in direction `w`.
+    /// Luminance in cd/m² that leaves the point `p` of part `prim`, with the outer geometric normal `ng`, in direction
+    /// `w`.
     #[inline]
-    pub fn radiance(&self, ng: Vec3<f32>, w: Vec3<f32>) -> Color<f32> {
-        if self.two_sided || ng.dot(w) > 0.0 { self.luminance } else { Color::BLACK }
+    pub fn radiance(&self, prim: u32, p: Vec3<f32>, ng: Vec3<f32>, w: Vec3<f32>) -> Color<f32> {
+        if !(self.two_sided || ng.dot(w) > 0.0) {
+            return Color::BLACK;
+        }
+        match &self.map {
+            None => self.luminance,
+            Some(map) => self.luminance * self.texel(map, prim, p),
+        }
+    }
+
+    fn texel(&self, map: &EmissionMap, prim: u32, p: Vec3<f32>) -> Color<f32> {
+        match &self.form {
+            Form::Triangles(triangles) => match triangles.get(prim as usize).and_then(Option::as_ref) {
+                Some(triangle) => map.at(prim as usize, triangle.weights_at(p)),
+                None => Color::BLACK,
+            },
+            Form::Whole(_) => Color::WHITE,
+        }
     }
 
     /// How many lights this one is for the purpose of choosing.
@@ -122,7 +165,7 @@ impl Area {
 
     fn seen(&self, at: &Receiver, sample: &SurfaceSample) -> Option<LightSample> {
         let (wi, distance) = toward(at.p, sample.p)?;
-        let value = self.radiance(sample.n, -wi);
+        let value = self.radiance(sample.prim, sample.p, sample.n, -wi);
         (value.max_component() > 0.0).then_some(LightSample {
             wi,
             distance,
@@ -158,7 +201,13 @@ impl Area {
                 vec![LightBounds::surface(sampler.bounds(), axis, spread, intensity, self.two_sided)]
             }
             Form::Triangles(triangles) => {
-                triangles.iter().map(|t| triangle_bounds(t.as_ref(), luminance, self.two_sided)).collect()
+                let luminance_of = |i| match &self.map {
+                    Some(map) => (self.luminance * map.mean(i)).luminance(),
+                    None => luminance,
+                };
+                let bounds =
+                    |(i, t): (usize, &Option<Triangle>)| triangle_bounds(t.as_ref(), luminance_of(i), self.two_sided);
+                triangles.iter().enumerate().map(bounds).collect()
             }
         }
     }

@@ -15,6 +15,7 @@
 //!
 //! - [`Light`]: [`Point`], [`Spot`], [`Projector`], [`Directional`], [`Area`], [`Luminaire`], [`Environment`], [`Sky`].
 //! - [`CieSky`], [`SunPosition`]: the sky and the sun by place and time.
+//! - [`EmissionMap`]: a picture that multiplies the luminance of an emissive mesh.
 //! - [`Lights`]: all lights of a scene; chooses one for a [`Receiver`], near and bright ones more often.
 //! - [`LightTree`]: that choice; its cost grows with the logarithm of the number of lights.
 //! - [`Spectrum`]: lumens of a watt, by the name of a spectrum.
@@ -28,12 +29,13 @@
 //! [`Lights::emitted`], and its weight against the light's own sampling uses [`Lights::pdf_surface`]; one that leaves the
 //! scene adds [`Lights::escaped`].
 //!
-//! It traces no ray and knows no material; there are no emission textures and no light through media.
+//! It traces no ray and knows no material; there is no light through media.
 
 mod area;
 mod bounds;
 mod cie_sky;
 mod directional;
+mod emission_map;
 mod environment;
 mod error;
 mod light;
@@ -54,6 +56,7 @@ pub use area::Area;
 pub use bounds::LightBounds;
 pub use cie_sky::CieSky;
 pub use directional::Directional;
+pub use emission_map::EmissionMap;
 pub use environment::{Environment, Up, rec709};
 pub use error::LightError;
 pub use light::Light;

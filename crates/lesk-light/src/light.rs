@@ -110,7 +110,7 @@ impl Light {
     /// Luminance in cd/m² that leaves the surface in direction `w`; black for all but area lights.
     pub fn emitted(&self, surface: &Surface, w: Vec3<f32>) -> Color<f32> {
         match self {
-            Light::Area(light) => light.radiance(surface.ng, w),
+            Light::Area(light) => light.radiance(surface.prim, surface.p, surface.ng, w),
             Light::Luminaire(light) => light.radiance(surface.ng, w),
             _ => Color::BLACK,
         }

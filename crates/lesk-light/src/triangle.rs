@@ -98,6 +98,17 @@ impl Triangle {
         if height > 1e-9 * distance && pdf.is_finite() { pdf } else { 0.0 }
     }
 
+    /// Barycentric weights of the corners for a point of the triangle.
+    pub fn weights_at(&self, p: Vec3<f32>) -> [f64; 3] {
+        let [a, b, c] = self.corners.map(widen);
+        let (e1, e2, d) = (b - a, c - a, widen(p) - a);
+        let n = e1.cross(e2);
+        let nn = n.length_squared();
+        let v = (d.cross(e2).dot(n) / nn).clamp(0.0, 1.0);
+        let w = (e1.cross(d).dot(n) / nn).clamp(0.0, 1.0 - v);
+        [1.0 - v - w, v, w]
+    }
+
     #[inline]
     fn seen(&self, x: Vec3<f32>) -> Option<SphericalTriangle> {
         if (self.center - x).length_squared() > self.far_square { None } else { self.seen_near(x) }

@@ -43,8 +43,8 @@
 //! dimensionless, colours in linear Rec.709, or positions in metres. +z is up unless a key says otherwise.
 //!
 //! **Files of other programs**: all meshes, materials, cameras and punctual lights; glTF keeps its own axes (turn it by
-//! `{ rotate = "90 deg", axis = [1, 0, 0] }`). Emission is taken as cd/m². Normal maps, opacity and emission textures are
-//! left out, and noted.
+//! `{ rotate = "90 deg", axis = [1, 0, 0] }`). Emission is taken as cd/m². Opacity, thin transmission and colours of
+//! vertices are left out, and noted.
 //!
 //! It traces nothing and draws nothing; there are no media, no motion and no displacement.
 
@@ -62,7 +62,7 @@ mod tasks;
 pub use camera::Camera;
 pub use description::SceneDescription;
 pub use error::{Place, Problem, SceneError};
-pub use material::{Binding, MAX_PARAMS, Material};
+pub use material::{Binding, MAX_PARAMS, Material, NormalMap};
 pub use scene::{Film, Object, RenderSettings, Scene};
 pub use schema::json_schema;
 pub use sensor::{MeasureSettings, Sensor};

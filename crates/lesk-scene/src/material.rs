@@ -3,6 +3,7 @@
 use lesk_bsdf::Scatter;
 use lesk_bsdf::model::Domain;
 use lesk_bsdf::params::offset_of;
+use lesk_geometry::{Detail, Surface};
 use lesk_image::Texture;
 use lesk_image::texture::Channel;
 use lesk_math::{CHANNELS, Vec3};
@@ -19,12 +20,41 @@ pub struct Material {
     model: &'static dyn Scatter,
     constants: [f32; MAX_PARAMS],
     bindings: Vec<Binding>,
+    normal_map: Option<NormalMap>,
+    needs_detail: bool,
     two_sided: bool,
     /// What the model says, looked up once.
     domain: Domain,
     count: usize,
     ior: Option<usize>,
     may_be_delta: bool,
+}
+
+/// A picture of normals in tangent space: red along growing u, green along growing v, blue outward.
+#[derive(Clone, Debug)]
+pub struct NormalMap {
+    /// The picture, read as data.
+    pub texture: Arc<Texture>,
+    /// Factor of the slopes.
+    pub strength: f32,
+    /// Which set of texture coordinates it reads, 0 or 1.
+    pub uv_set: usize,
+    /// Rows of the affine map of the texture coordinates.
+    pub uv: [[f32; 3]; 2],
+}
+
+impl NormalMap {
+    /// The shading normal of a surface as a hit gave it: not turned to any viewer.
+    pub fn normal(&self, surface: &Surface, detail: &Detail) -> Vec3<f32> {
+        let [x, y, z] = self.texture.rgb(mapped(&self.uv, detail.uvs[self.uv_set])).map(|v| 2.0 * v - 1.0);
+        surface.bent(detail, [x * self.strength, y * self.strength, z])
+    }
+}
+
+/// An affine map of texture coordinates.
+#[inline]
+fn mapped(rows: &[[f32; 3]; 2], [u, v]: [f32; 2]) -> [f32; 2] {
+    rows.map(|row| row[0] * u + row[1] * v + row[2])
 }
 
 /// A texture that gives one parameter.
@@ -44,14 +74,16 @@ pub struct Binding {
     pub offset: f32,
     /// Legal values: what lies outside is clamped.
     pub range: [f32; 2],
-    /// Factor and offset of the texture coordinates.
-    pub uv: [[f32; 2]; 2],
+    /// Which set of texture coordinates it reads, 0 or 1.
+    pub uv_set: usize,
+    /// Rows of the affine map of the texture coordinates.
+    pub uv: [[f32; 3]; 2],
 }
 
 impl Binding {
     /// Writes the values at the texture coordinates into the flat table.
-    fn read(&self, uv: [f32; 2], out: &mut [f32; MAX_PARAMS]) {
-        let uv = [0, 1].map(|i| uv[i] * self.uv[0][i] + self.uv[1][i]);
+    fn read(&self, uvs: [[f32; 2]; 2], out: &mut [f32; MAX_PARAMS]) {
+        let uv = mapped(&self.uv, uvs[self.uv_set]);
         let texel = if self.len == CHANNELS && CHANNELS == 3 {
             self.texture.rgb(uv)
         } else {
@@ -79,6 +111,8 @@ impl Material {
             model,
             constants: table,
             bindings: Vec::new(),
+            normal_map: None,
+            needs_detail: false,
             two_sided,
             domain: model.model().domain,
             count: constants.len(),
@@ -94,7 +128,16 @@ impl Material {
     #[must_use]
     pub fn with(mut self, binding: Binding) -> Self {
         assert!(binding.len <= 3 && binding.entry + binding.len <= self.model.param_count());
+        self.needs_detail |= binding.uv_set > 0;
         self.bindings.push(binding);
+        self
+    }
+
+    /// The same material with a normal map.
+    #[must_use]
+    pub fn with_normal_map(mut self, map: NormalMap) -> Self {
+        self.needs_detail = true;
+        self.normal_map = Some(map);
         self
     }
 
@@ -141,16 +184,34 @@ impl Material {
         &self.bindings
     }
 
+    /// The normal map, where it has one.
+    pub fn normal_map(&self) -> Option<&NormalMap> {
+        self.normal_map.as_ref()
+    }
+
+    /// Whether it reads more of a surface than its first texture coordinates: then [`params_at`](Self::params_at) and
+    /// [`normal_map`](Self::normal_map) want `World::detail`.
+    #[inline]
+    pub fn needs_detail(&self) -> bool {
+        self.needs_detail
+    }
+
     /// The model's flat parameter table at the texture coordinates, as `Scatter` takes it: the constants themselves, or a
     /// copy of them with what the textures say, written into `out`.
     #[inline]
     pub fn params<'a>(&'a self, uv: [f32; 2], out: &'a mut [f32; MAX_PARAMS]) -> &'a [f32] {
+        self.params_at([uv; 2], out)
+    }
+
+    /// [`params`](Self::params) at texture coordinates of both sets.
+    #[inline]
+    pub fn params_at<'a>(&'a self, uvs: [[f32; 2]; 2], out: &'a mut [f32; MAX_PARAMS]) -> &'a [f32] {
         if self.bindings.is_empty() {
             return &self.constants[..self.count];
         }
         *out = self.constants;
         for binding in &self.bindings {
-            binding.read(uv, out);
+            binding.read(uvs, out);
         }
         &out[..self.count]
     }
@@ -163,6 +224,7 @@ impl fmt::Debug for Material {
             .field("model", &self.model.id())
             .field("constants", &&self.constants[..self.model.param_count()])
             .field("bindings", &self.bindings.len())
+            .field("normal_map", &self.normal_map.is_some())
             .field("two_sided", &self.two_sided)
             .finish()
     }

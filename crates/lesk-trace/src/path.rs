@@ -209,6 +209,20 @@ impl<'a> Path<'a> {
     }
 }
 
+/// Bends the shading normal by the normal map and gives both sets of texture coordinates.
+#[inline(never)]
+fn detailed(scene: &Scene, material: &Material, surface: &mut Surface, wo: Vec3<f32>) -> [[f32; 2]; 2] {
+    let detail = scene.world.detail(surface);
+    if let Some(map) = material.normal_map() {
+        let bent = map.normal(surface, &detail);
+        // bent away from the viewer it would show black
+        if (bent.dot(wo) < 0.0) == (surface.ng.dot(wo) < 0.0) {
+            surface.ns = bent;
+        }
+    }
+    detail.uvs
+}
+
 impl<'a> Vertex<'a> {
     /// `None` where the surface scatters nothing towards `wo`: without a material, or the back of a one-sided one.
     #[inline]
@@ -220,7 +234,9 @@ impl<'a> Vertex<'a> {
     ) -> Option<Vertex<'a>> {
         let number = scene.object(&surface).material?;
         let material: &Material = &scene.materials[number as usize];
-        if surface.ng.dot(wo) < 0.0 && material.domain() == Domain::Upper {
+        let behind = surface.ng.dot(wo) < 0.0;
+        let uvs = if material.needs_detail() { detailed(scene, material, &mut surface, wo) } else { [surface.uv; 2] };
+        if behind && material.domain() == Domain::Upper {
             if !material.two_sided() {
                 return None;
             }
@@ -232,7 +248,7 @@ impl<'a> Vertex<'a> {
             surface.ns = surface.ng;
         }
         let frame = surface.frame();
-        let params = material.params(surface.uv, table);
+        let params = material.params_at(uvs, table);
         let wo = frame.local_from_world(wo);
         Some(Vertex { surface, number, material, model: material.model(), params, frame, wo })
     }

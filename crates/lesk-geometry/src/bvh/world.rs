@@ -4,6 +4,7 @@ use super::build::{Item, Items, build};
 use super::traverse::{Best, LocalRay, NoOthers, Others, Portable, walk};
 use super::tree::Tree;
 use crate::bounds::Bounds;
+use crate::detail::Detail;
 use crate::error::{Error, Result};
 use crate::ray::{Hit, Ray};
 use crate::shapes::{AreaSampler, Geometry, shape_intersect};
@@ -215,6 +216,7 @@ pub struct World {
     copies: Vec<(u32, u32)>,
     others: Vec<u32>,
     /// Available on this processor.
+    #[cfg_attr(not(target_arch = "x86_64"), allow(dead_code))] // elsewhere there is one loop
     isa: Isa,
 }
 
@@ -281,6 +283,12 @@ impl World {
     pub fn surface(&self, ray: &Ray, hit: &Hit) -> Surface {
         let instance = &self.instances[hit.instance as usize];
         surface_at(&self.geometries[instance.geometry as usize], &instance.place, instance.moved, ray, hit)
+    }
+
+    /// What normal maps and second texture coordinates need at a surface, as [`surface`](Self::surface) gave it.
+    pub fn detail(&self, surface: &Surface) -> Detail {
+        let instance = &self.instances[surface.instance as usize];
+        Detail::at(&self.geometries[instance.geometry as usize], &instance.place, surface)
     }
 
     /// Prepares choosing points on an instance, as for an area light.

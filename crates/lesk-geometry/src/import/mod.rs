@@ -144,6 +144,8 @@ pub struct MetallicRoughness {
     pub ior: f32,
     /// Share of light that enters a dielectric instead of being scattered (`KHR_materials_transmission`).
     pub transmission: f32,
+    /// Whether the surface bounds a body of that dielectric (`KHR_materials_volume`); else it is a thin sheet.
+    pub solid: bool,
 }
 
 impl Default for MetallicRoughness {
@@ -162,6 +164,7 @@ impl Default for MetallicRoughness {
             double_sided: false,
             ior: 1.5,
             transmission: 0.0,
+            solid: false,
         }
     }
 }
@@ -182,18 +185,15 @@ pub enum Alpha {
 pub struct Texture {
     /// Where the image comes from.
     pub image: ImageSource,
-    /// Which set of texture coordinates it uses. A mesh holds one set: that of its base colour, else set 0.
-    pub uv_set: u32,
+    /// Which set of texture coordinates of the mesh it uses, 0 or 1.
+    pub uv_set: usize,
+    /// Rows of the affine map from the mesh's texture coordinates to the image's; both have v upward, whatever the file
+    /// says.
+    pub uv: [[f32; 3]; 2],
     /// How it continues beyond 0 to 1, along u and v.
     pub wrap: [Wrap; 2],
     /// Whether texels are blended; `false` shows the nearest.
     pub smooth: bool,
-    /// Scale of the texture coordinates, along u and v (MTL `-s`); 1 where not stated.
-    pub scale: [f32; 2],
-    /// Then a turn, radians from +u towards +v of an image whose first row is at v = 0 (`KHR_texture_transform`).
-    pub rotation: f32,
-    /// Then an offset (MTL `-o`).
-    pub offset: [f32; 2],
 }
 
 /// How an image continues beyond its border.
@@ -314,6 +314,7 @@ impl Asset {
             (repairs.replaced_normals, "unusable normals replaced by those of the faces around"),
             (repairs.replaced_uvs, "texture coordinates that are not finite replaced by 0"),
             (repairs.turned_triangles, "triangles turned to the side of their normals"),
+            (usize::from(repairs.dropped_tangents), "list of tangents that are no directions dropped"),
         ] {
             if count > 0 {
                 self.warn(format!("{place}: {count} {what}"));
@@ -353,7 +354,7 @@ impl Asset {
 
 /// The file's bytes, with the path in the error.
 fn read_file(path: &Path) -> Result<Vec<u8>> {
-    std::fs::read(path).map_err(|e| Error::new(format!("cannot be read: {e}")).at(path.display()))
+    std::fs::read(path).map_err(|e| Error::unreadable(&e).at(path.display()))
 }
 
 /// `relative` inside the folder of `path`; absolute paths and those that leave the folder are refused.

@@ -135,7 +135,8 @@ fn texture(words: &[&str], path: &Path, warn: &mut dyn FnMut(String)) -> Result<
     match inside_folder(path, &name) {
         Ok(file) => {
             let image = ImageSource::File(file);
-            Ok(Some(Texture { image, uv_set: 0, wrap: [wrap; 2], smooth: true, scale, rotation: 0.0, offset }))
+            let uv = [[scale[0], 0.0, offset[0]], [0.0, scale[1], offset[1]]];
+            Ok(Some(Texture { image, uv_set: 0, uv, wrap: [wrap; 2], smooth: true }))
         }
         Err(e) => {
             warn(format!("texture left out: {e}"));
@@ -164,7 +165,7 @@ mod tests {
         assert_eq!((m.ns, m.d, m.ni, m.illum), (20.0, 0.5, 1.5, Some(2)));
         let t = m.map_kd.as_ref().unwrap();
         assert_eq!(t.image, ImageSource::File("/m/img/my map.png".into()));
-        assert_eq!((t.scale, t.offset, t.wrap), ([2.0, 3.0], [0.5, 0.0], [Wrap::Clamp; 2]));
+        assert_eq!((t.uv, t.wrap), ([[2.0, 0.0, 0.5], [0.0, 3.0, 0.0]], [Wrap::Clamp; 2]));
         assert!(m.map_ks.is_some() && warnings.is_empty());
     }
 

@@ -17,7 +17,7 @@ use std::path::Path;
 /// A file that cannot be opened; everything that [`from_reader`] finds.
 pub fn read(path: &Path) -> Result<Asset> {
     let open = || std::fs::File::open(path).and_then(|f| f.metadata().map(|m| (f, m.len())));
-    let (file, length) = open().map_err(|e| Error::new(format!("cannot be read: {e}")).at(path.display()))?;
+    let (file, length) = open().map_err(|e| Error::unreadable(&e).at(path.display()))?;
     let name = path.file_stem().and_then(|n| n.to_str()).unwrap_or("");
     from_reader(file, length, name).map_err(|e| e.at(path.display()))
 }

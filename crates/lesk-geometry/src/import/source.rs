@@ -115,7 +115,7 @@ impl<R: Read> Source<R> {
                     self.unread -= got as u64;
                 }
                 Err(e) if e.kind() == std::io::ErrorKind::Interrupted => {}
-                Err(e) => return Err(Error::new(format!("cannot be read: {e}"))),
+                Err(e) => return Err(Error::unreadable(&e)),
             }
         }
         Ok(self.end >= n)

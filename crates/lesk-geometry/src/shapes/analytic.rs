@@ -128,7 +128,8 @@ fn turn(p: Vec3<f64>) -> f64 {
 
 fn sphere_surface(p: Vec3<f64>) -> LocalSurface {
     let n = p.normalize();
-    LocalSurface { p: n, n, uv: [turn(n), n.x.hypot(n.y).atan2(n.z) / PI], dpdu: vec3(-n.y, n.x, 0.0) * TAU }
+    // v from -z to +z: a map of the globe has north up
+    LocalSurface { p: n, n, uv: [turn(n), n.x.hypot(n.y).atan2(-n.z) / PI], dpdu: vec3(-n.y, n.x, 0.0) * TAU }
 }
 
 fn disk_surface(p: Vec3<f64>, z: f64, side: f64) -> LocalSurface {

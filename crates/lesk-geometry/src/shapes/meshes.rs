@@ -16,9 +16,9 @@ pub fn rectangle() -> Mesh {
     let corners = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
     trusted(MeshData {
         positions: corners.map(|[u, v]: [f32; 2]| vec3(2.0 * u - 1.0, 2.0 * v - 1.0, 0.0)).to_vec(),
-        normals: vec![],
         uvs: corners.to_vec(),
         triangles: vec![[0, 1, 2], [0, 2, 3]],
+        ..MeshData::default()
     })
 }
 
@@ -62,7 +62,7 @@ pub fn uv_sphere(columns: u32, rows: u32) -> Mesh {
             let p = vec3((r * phi.cos()) as f32, (r * phi.sin()) as f32, (PI * v).cos() as f32);
             data.positions.push(p);
             data.normals.push(p);
-            data.uvs.push([u as f32, v as f32]);
+            data.uvs.push([u as f32, 1.0 - v as f32]);
         }
     }
     let at = |i: u32, j: u32| j * (columns + 1) + i;

@@ -16,6 +16,8 @@ pub struct MaterialDescription {
     pub model: String,
     /// Parameters by name; the others have the model's defaults.
     pub params: Vec<(String, Source, Place)>,
+    /// What bends the shading normals.
+    pub normal_map: Option<NormalMapDescription>,
     /// Whether an opaque surface scatters on its back.
     pub two_sided: bool,
     /// Where it is stated.
@@ -29,6 +31,7 @@ impl MaterialDescription {
             name: name.into(),
             model: model.into(),
             params: Vec::new(),
+            normal_map: None,
             two_sided: true,
             place: Place::NONE,
         }
@@ -99,8 +102,21 @@ pub struct TextureDescription {
     pub wrap: [Wrap; 2],
     /// Whether texels are blended.
     pub interpolation: Interpolation,
-    /// Factor and offset of the texture coordinates.
-    pub uv: [[f32; 2]; 2],
+    /// Which set of the mesh's texture coordinates it uses, 0 or 1.
+    pub uv_set: usize,
+    /// Rows of the affine map from them to those of the picture; v runs upward in both.
+    pub uv: [[f32; 3]; 2],
+}
+
+/// A picture of normals in tangent space: red along growing u, green along growing v, blue outward.
+#[derive(Clone, Debug)]
+pub struct NormalMapDescription {
+    /// The picture; role, colour space, channel, scale and offset have no meaning here.
+    pub texture: TextureDescription,
+    /// Factor of the slopes; 1 is as the picture has them.
+    pub strength: f64,
+    /// Where it is stated.
+    pub place: Place,
 }
 
 impl TextureDescription {
@@ -115,7 +131,8 @@ impl TextureDescription {
             offset: 0.0,
             wrap: [Wrap::Repeat; 2],
             interpolation: Interpolation::Bilinear,
-            uv: [[1.0; 2], [0.0; 2]],
+            uv_set: 0,
+            uv: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]],
         }
     }
 }

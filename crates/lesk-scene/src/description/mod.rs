@@ -24,7 +24,7 @@ pub use light::{
     AreaLightDescription, Emission, EnvironmentDescription, EnvironmentKind, LightColor, LightDescription, LightKind,
     LuminaireDescription, MapStrength,
 };
-pub use material::{MaterialDescription, Picture, Source, TextureDescription};
+pub use material::{MaterialDescription, NormalMapDescription, Picture, Source, TextureDescription};
 pub use object::{GroupDescription, Normals, ObjectDescription, Shape, Triangles};
 
 use crate::scene::{Film, RenderSettings};

@@ -317,10 +317,15 @@ pub(crate) fn real(node: &Node) -> Option<f64> {
     }
 }
 
+/// A number without rows of zeros.
+fn short(x: f64) -> String {
+    if x == 0.0 || (1e-4..1e7).contains(&x.abs()) { x.to_string() } else { format!("{x:e}") }
+}
+
 fn range_text(low: f64, high: f64) -> String {
     match (low > -1e300, high < 1e300) {
-        (true, true) => format!(" from {low} to {high}"),
-        (true, false) => format!(" from {low}"),
+        (true, true) => format!(" from {} to {}", short(low), short(high)),
+        (true, false) => format!(" from {}", short(low)),
         _ => String::new(),
     }
 }
@@ -411,9 +416,12 @@ fn quantity(name: &str, node: &Node, accepted: &[Dimension], [low, high]: [f64; 
         let unit = value.dimension().si_symbol();
         let accepted = match (low == f64::MIN_POSITIVE, high < 1e300) {
             (true, false) => "it must be positive".to_string(),
-            _ => format!("{low} to {high} {unit} is accepted"),
+            _ => format!("{} to {} {unit} is accepted", short(low), short(high)),
         };
-        return Err(Problem::new(node.place, format!("`{name}` is `{value}`, {accepted}")));
+        return Err(Problem::new(
+            node.place,
+            format!("`{name}` is `{}`, {accepted}", crate::error::shown(text.trim())),
+        ));
     }
     Ok(value)
 }

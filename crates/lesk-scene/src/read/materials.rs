@@ -2,9 +2,9 @@
 
 use super::fields::{Expected, Fields, Problems, real};
 use super::node::{Data, Entry, Node};
-use crate::description::{MaterialDescription, Picture, Source, TextureDescription};
+use crate::description::{MaterialDescription, NormalMapDescription, Picture, Source, TextureDescription};
 use crate::error::{Problem, list};
-use crate::schema::{MATERIAL_COMMON, TEXTURE};
+use crate::schema::{MATERIAL_COMMON, NORMAL_MAP, TEXTURE};
 use lesk_bsdf::registry;
 use lesk_image::texture::{Channel, Interpolation, Role, Wrap};
 
@@ -34,7 +34,9 @@ pub(super) fn material(entry: &Entry, problems: &mut Problems) -> MaterialDescri
         }
     }
     for e in entries.iter().filter(|e| e.key != "model") {
-        if let Some(field) = MATERIAL_COMMON.iter().find(|f| f.name == e.key) {
+        if e.key == "normal_map" {
+            material.normal_map = normal_map(&e.node, problems);
+        } else if let Some(field) = MATERIAL_COMMON.iter().find(|f| f.name == e.key) {
             match super::fields::check(field, &e.node) {
                 Ok(super::fields::Checked::Bool(two_sided)) => material.two_sided = two_sided,
                 Ok(_) => {}
@@ -71,6 +73,19 @@ fn texture(node: &Node, problems: &mut Problems) -> Option<TextureDescription> {
     t.channel = fields.text("channel").and_then(|c| c.parse().ok()).unwrap_or(Channel::Red);
     t.scale = fields.numbers("scale").unwrap_or(t.scale);
     t.offset = fields.number("offset").unwrap_or(t.offset);
+    lay(&fields, &mut t);
+    Some(t)
+}
+
+fn normal_map(node: &Node, problems: &mut Problems) -> Option<NormalMapDescription> {
+    let fields = Fields::of(node, &Expected::plain("normal map", NORMAL_MAP), problems)?;
+    let mut texture = TextureDescription::new(Picture::File(fields.text("file")?.into()));
+    lay(&fields, &mut texture);
+    Some(NormalMapDescription { texture, strength: fields.number("strength").unwrap_or(1.0), place: node.place })
+}
+
+/// How a picture is laid over a surface.
+fn lay(fields: &Fields, t: &mut TextureDescription) {
     t.wrap = match fields.text("wrap") {
         Some("mirror") => [Wrap::Mirror; 2],
         Some("clamp") => [Wrap::Clamp; 2],
@@ -80,6 +95,6 @@ fn texture(node: &Node, problems: &mut Problems) -> Option<TextureDescription> {
         t.interpolation = Interpolation::Nearest;
     }
     let pair = |name: &str, usual: [f32; 2]| fields.numbers(name).map_or(usual, |v: [f64; 2]| v.map(|x| x as f32));
-    t.uv = [pair("uv_scale", [1.0; 2]), pair("uv_offset", [0.0; 2])];
-    Some(t)
+    let ([su, sv], [ou, ov]) = (pair("uv_scale", [1.0; 2]), pair("uv_offset", [0.0; 2]));
+    t.uv = [[su, 0.0, ou], [0.0, sv, ov]];
 }

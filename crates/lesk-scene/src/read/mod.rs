@@ -67,11 +67,11 @@ impl SceneDescription {
 
 fn read_text(path: &Path) -> Result<String, SceneError> {
     let fail = |text: String| SceneError::new(vec![Problem::new(Default::default(), text)], Some(path.into()), "");
-    let size = std::fs::metadata(path).map_err(|e| fail(format!("cannot be read: {e}")))?.len();
+    let size = std::fs::metadata(path).map_err(|e| fail(lesk_geometry::Error::unreadable(&e).message))?.len();
     if size > MAX_BYTES {
         return Err(fail(format!("scene file has {size} bytes, up to {MAX_BYTES} are accepted")));
     }
-    std::fs::read_to_string(path).map_err(|e| fail(format!("cannot be read: {e}")))
+    std::fs::read_to_string(path).map_err(|e| fail(lesk_geometry::Error::unreadable(&e).message))
 }
 
 /// The description as far as it could be read, and everything that is wrong with it.

@@ -30,8 +30,8 @@ pub(super) fn object(node: &Node, problems: &mut Problems) -> Option<ObjectDescr
         Some(light) => Some(light?),
         None => None,
     };
-    // a mistake is best marked at the line that names the material or the file
-    let marked = ["material", "file", "group"].into_iter().find(|n| fields.has(n));
+    // a mistake is best marked at the line that names the file or the material
+    let marked = ["file", "group", "material"].into_iter().find(|n| fields.has(n));
     object.place = marked.map_or(fields.place, |n| fields.place_of(n));
     Some(object)
 }

@@ -1,24 +1,28 @@
 //! Meshes of other programs, with their materials and lights.
 
 use super::Resolver;
+use super::files::Reading;
 use super::objects::{Part, about};
-use crate::description::{MaterialDescription, Normals, ObjectDescription, Picture, TextureDescription};
+use crate::description::{
+    MaterialDescription, NormalMapDescription, Normals, ObjectDescription, Picture, TextureDescription,
+};
 use crate::error::Place;
 use lesk_geometry::Transform;
 use lesk_geometry::import::{
     Alpha, Asset, Description, ImageSource, LightKind, MetallicRoughness, Mtl, Texture, Wrap as AssetWrap,
 };
-use lesk_image::texture::{Channel, Interpolation, Wrap};
-use lesk_light::{Area, Directional, Light, LightError, Point, Spot, rec709};
+use lesk_image::texture::{Channel, Interpolation, Role, Wrap};
+use lesk_light::{Area, Directional, EmissionMap, Light, LightError, Point, Spot, rec709};
 use lesk_math::{Vec3, vec3};
 use std::path::Path;
 
 /// What a material of a file became.
-#[derive(Clone, Copy)]
+#[derive(Clone)]
 struct Imported {
     material: Option<u32>,
-    /// Luminance that it emits, cd/m².
+    /// Luminance that it emits, cd/m², and the picture that multiplies it.
     emission: [f32; 3],
+    emission_map: Option<TextureDescription>,
     two_sided: bool,
 }
 
@@ -38,7 +42,7 @@ impl Resolver<'_> {
         let imported = self.imported(&path, &asset, material, d.place);
         for placed in &asset.instances {
             let mesh = &asset.meshes[placed.mesh];
-            let own = mesh.material.and_then(|i| imported.get(i).copied());
+            let own = mesh.material.and_then(|i| imported.get(i));
             let number = material.or(own.and_then(|own| own.material));
             if number.is_none() && d.light.is_none() {
                 let name = path.display();
@@ -49,7 +53,7 @@ impl Resolver<'_> {
             }
             let part = Part {
                 name: if placed.name.is_empty() { &d.name } else { &placed.name },
-                geometry: self.mesh(&mesh.mesh, normals),
+                geometry: self.mesh(&mesh.mesh, normals, self.tangent_set(number)),
                 transform: transform * placed.world_from_local,
                 material: number,
                 place: d.place,
@@ -64,11 +68,20 @@ impl Resolver<'_> {
         }
     }
 
-    fn glowing(&mut self, part: Part, own: Imported, place: Place) {
-        let area = Area::new(self.geometry(part.geometry), &part.transform, rec709(own.emission), own.two_sided);
-        if let Some(area) = self.check(place, &about(part.name), area) {
-            self.instance_with(part, Some(area));
+    fn glowing(&mut self, part: Part, own: &Imported, place: Place) {
+        let geometry = self.geometry(part.geometry).clone();
+        let area = Area::new(&geometry, &part.transform, rec709(own.emission), own.two_sided);
+        let Some(mut area) = self.check(place, &about(part.name), area) else { return };
+        if let (Some(d), Some(mesh)) = (&own.emission_map, geometry.mesh()) {
+            let reading = Reading { role: Role::Color, srgb: d.srgb, wrap: d.wrap, interpolation: d.interpolation };
+            let loaded = self.files.texture(&d.image, reading);
+            let Some(loaded) = self.check(place, &about(part.name), loaded) else { return };
+            let map = EmissionMap::new(loaded.texture, mesh.clone(), d.uv_set, d.uv);
+            let mapped = area.with_map(map);
+            let Some(mapped) = self.check(place, &about(part.name), mapped) else { return };
+            area = mapped;
         }
+        self.instance_with(part, Some(area));
     }
 
     /// The materials of a file as materials of the scene, made once per file.
@@ -83,19 +96,14 @@ impl Resolver<'_> {
                     (self.metallic_roughness(&name, mr), mr.emissive, mr.double_sided)
                 }
             };
-            let textured = match &m.description {
-                Description::Mtl(mtl) => mtl.map_ke.is_some(),
-                Description::MetallicRoughness(mr) => mr.emissive_texture.is_some(),
+            let emission_map = match &m.description {
+                Description::Mtl(mtl) => mtl.map_ke.as_ref(),
+                Description::MetallicRoughness(mr) => mr.emissive_texture.as_ref(),
             };
-            let emission = if textured && emission != [0.0; 3] {
-                self.note(format!("material `{name}`: emission textures are not supported, it emits nothing"));
-                [0.0; 3]
-            } else {
-                emission
-            };
+            let emission_map = emission_map.map(texture);
             // an override needs none of the file's materials
             let number = if material.is_none() { self.imported_material(&name, description, place) } else { None };
-            out.push(Imported { material: number, emission, two_sided });
+            out.push(Imported { material: number, emission, emission_map, two_sided });
         }
         out
     }
@@ -131,14 +139,20 @@ impl Resolver<'_> {
     }
 
     fn metallic_roughness(&mut self, name: &str, mr: &MetallicRoughness) -> MaterialDescription {
-        if mr.normal_texture.is_some() {
-            self.note(format!("material `{name}`: normal textures are not supported, the surface is smooth"));
-        }
         if mr.alpha != Alpha::Opaque {
             self.note(format!("material `{name}`: opacity is ignored, the surface is opaque"));
         }
+        if mr.transmission > 0.0 && mr.solid {
+            return self.glass(name, mr);
+        }
         if mr.transmission > 0.0 {
-            self.note(format!("material `{name}`: transmission {} is ignored", mr.transmission));
+            let share = mr.transmission;
+            self.note(format!(
+                "material `{name}`: transmission {share} of a thin sheet is ignored, the surface is opaque"
+            ));
+        }
+        if mr.ior != 1.5 {
+            self.note(format!("material `{name}`: index of refraction {} is ignored, the model has 1.5", mr.ior));
         }
         let [r, g, b, _] = mr.base_color.map(unit);
         let mut m = MaterialDescription::new(name, "metallic_roughness");
@@ -157,6 +171,28 @@ impl Resolver<'_> {
                 }
             };
         }
+        m.normal_map = normal_map(mr);
+        m
+    }
+
+    /// A body of clear glass: what `KHR_materials_transmission` and `KHR_materials_volume` describe, without colour.
+    fn glass(&mut self, name: &str, mr: &MetallicRoughness) -> MaterialDescription {
+        let [r, g, b, _] = mr.base_color;
+        if mr.transmission < 1.0 || mr.metallic > 0.0 || [r, g, b] != [1.0; 3] || mr.base_color_texture.is_some() {
+            self.note(format!(
+                "material `{name}`: taken as clear glass, colour and what it does not transmit are ignored"
+            ));
+        }
+        let ior = f64::from(mr.ior).clamp(1.001, 4.0);
+        let alpha = f64::from(mr.roughness * mr.roughness);
+        // below, the lobe is narrower than rough_dielectric accepts
+        let mut m = if alpha < 1e-3 {
+            MaterialDescription::new(name, "dielectric")
+        } else {
+            MaterialDescription::new(name, "rough_dielectric").set("alpha_x", &[alpha]).set("alpha_y", &[alpha])
+        };
+        m = m.set("ior", &[ior]);
+        m.normal_map = normal_map(mr);
         m
     }
 
@@ -180,6 +216,14 @@ impl Resolver<'_> {
             self.lights.push(light);
         }
     }
+}
+
+fn normal_map(mr: &MetallicRoughness) -> Option<NormalMapDescription> {
+    mr.normal_texture.as_ref().map(|image| NormalMapDescription {
+        texture: texture(image),
+        strength: mr.normal_scale.into(),
+        place: Place::NONE,
+    })
 }
 
 /// A factor of a file within 0 to 1.
@@ -211,6 +255,6 @@ fn texture(image: &Texture) -> TextureDescription {
     let mut t = TextureDescription::new(picture);
     t.wrap = image.wrap.map(wrap);
     t.interpolation = if image.smooth { Interpolation::Bilinear } else { Interpolation::Nearest };
-    t.uv = [image.scale, image.offset];
+    (t.uv_set, t.uv) = (image.uv_set, image.uv);
     t
 }

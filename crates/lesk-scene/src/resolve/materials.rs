@@ -2,9 +2,9 @@
 
 use super::Resolver;
 use super::files::{Loaded, Reading};
-use crate::description::{MaterialDescription, Source, TextureDescription};
+use crate::description::{MaterialDescription, NormalMapDescription, Source, TextureDescription};
 use crate::error::{Place, Problem, list, name_hint};
-use crate::material::{Binding, MAX_PARAMS, Material};
+use crate::material::{Binding, MAX_PARAMS, Material, NormalMap};
 use lesk_bsdf::params::{Kind, ParamSpec, defaults, offset_of};
 use lesk_bsdf::{Scatter, registry};
 use lesk_image::Transfer;
@@ -57,11 +57,27 @@ impl Resolver<'_> {
                 }
             }
         }
+        let normal_map = d.normal_map.as_ref().and_then(|map| self.normal_map(&d.name, map));
         if self.problems.len() > before {
             return None;
         }
         let material = Material::new(&d.name, model, &table, d.two_sided);
-        Some(bindings.into_iter().fold(material, Material::with))
+        let material = bindings.into_iter().fold(material, Material::with);
+        Some(normal_map.into_iter().fold(material, Material::with_normal_map))
+    }
+
+    fn normal_map(&mut self, name: &str, d: &NormalMapDescription) -> Option<NormalMap> {
+        let t = &d.texture;
+        let reading = Reading { role: Role::Data, srgb: None, wrap: t.wrap, interpolation: t.interpolation };
+        let about = format!("material `{name}`: `normal_map`");
+        let loaded = self.files.texture(&t.image, reading);
+        let texture = self.check(d.place, &about, loaded)?.texture;
+        if texture.channels() < 3 {
+            let text = format!("{about}: the picture has {} channels, three are needed", texture.channels());
+            self.problem(Problem::new(d.place, text));
+            return None;
+        }
+        Some(NormalMap { texture, strength: d.strength as f32, uv_set: t.uv_set, uv: t.uv })
     }
 
     fn model(&mut self, id: &str, place: Place) -> Option<&'static dyn Scatter> {
@@ -148,6 +164,7 @@ impl Resolver<'_> {
             scale: d.scale.map(|s| s as f32),
             offset: d.offset as f32,
             range: spec.range.map(|v| v as f32),
+            uv_set: d.uv_set,
             uv: d.uv,
         };
         let repaired = loaded.texture.repaired();

@@ -22,10 +22,13 @@ pub(super) struct Geometries {
     /// Sphere, disk, rectangle, cube, closed and open cylinder.
     simple: [Option<u32>; 6],
     teapots: HashMap<u32, u32>,
-    /// By the address of the mesh, which `kept` holds.
-    meshes: HashMap<(usize, u8), u32>,
+    /// By the mesh, which `kept` holds.
+    meshes: HashMap<Key, u32>,
     kept: Vec<Arc<Mesh>>,
 }
+
+/// The address of a mesh, what its normals are, and the texture coordinates that need tangents.
+type Key = (usize, u8, Option<usize>);
 
 /// What stands at a place, before it is an instance.
 pub(super) struct Part<'a> {
@@ -92,7 +95,7 @@ impl Resolver<'_> {
             );
             return;
         }
-        let Some((geometry, size)) = self.shape(d) else { return };
+        let Some((geometry, size)) = self.shape(d, material) else { return };
         let part = Part { name: &d.name, geometry, transform: transform * size, material, place: d.place };
         self.instance(part, d);
     }
@@ -150,7 +153,7 @@ impl Resolver<'_> {
     }
 
     /// The geometry of a shape, and the transform that gives it its size.
-    fn shape(&mut self, d: &ObjectDescription) -> Option<(u32, Transform)> {
+    fn shape(&mut self, d: &ObjectDescription, material: Option<u32>) -> Option<(u32, Transform)> {
         let sizes = match &d.shape {
             Shape::Sphere { radius } => [*radius; 3],
             Shape::Disk { radius } => [*radius, *radius, 1.0],
@@ -176,10 +179,10 @@ impl Resolver<'_> {
             Shape::Teapot { level } => self.teapot(*level, d)?,
             Shape::Mesh(mesh) => {
                 let mesh = mesh.0.clone();
-                if !self.geometries.meshes.contains_key(&key(&mesh, Normals::File)) {
+                if !self.geometries.kept.iter().any(|known| Arc::ptr_eq(known, &mesh)) {
                     self.files.hash_mesh(&mesh);
                 }
-                self.mesh(&mesh, Normals::File)
+                self.mesh(&mesh, Normals::File, self.tangent_set(material))
             }
             Shape::File { .. } | Shape::Group(_) => return None,
         };
@@ -214,25 +217,29 @@ impl Resolver<'_> {
         Some(number)
     }
 
-    /// The geometry of a mesh; the same mesh is one geometry.
-    pub(super) fn mesh(&mut self, mesh: &Arc<Mesh>, normals: Normals) -> u32 {
-        if let Some(&number) = self.geometries.meshes.get(&key(mesh, normals)) {
+    /// The texture coordinates along which a material needs tangents: those of its normal map.
+    pub(super) fn tangent_set(&self, material: Option<u32>) -> Option<usize> {
+        self.materials[material? as usize].normal_map().map(|map| map.uv_set)
+    }
+
+    /// The geometry of a mesh; the same mesh is one geometry. With `tangents` it has them along that set of texture
+    /// coordinates: those of the file, or made.
+    pub(super) fn mesh(&mut self, mesh: &Arc<Mesh>, normals: Normals, tangents: Option<usize>) -> u32 {
+        let key = (Arc::as_ptr(mesh) as usize, normals as u8, tangents);
+        if let Some(&number) = self.geometries.meshes.get(&key) {
             return number;
         }
-        let shown = match normals {
-            Normals::File => mesh.clone(),
-            _ => {
-                let mut copy = (**mesh).clone();
-                if normals == Normals::Smooth {
-                    copy.smooth()
-                } else {
-                    copy.flatten()
-                }
-                Arc::new(copy)
-            }
-        };
+        let mut shown = mesh.clone();
+        match normals {
+            Normals::File => {}
+            Normals::Smooth => Arc::make_mut(&mut shown).smooth(),
+            Normals::Flat => Arc::make_mut(&mut shown).flatten(),
+        }
+        if let Some(set) = tangents.filter(|_| shown.tangents().is_empty()) {
+            shown = Arc::new(shown.with_tangents(set));
+        }
         let number = self.add_geometry(Geometry::Mesh(shown));
-        self.geometries.meshes.insert(key(mesh, normals), number);
+        self.geometries.meshes.insert(key, number);
         self.geometries.kept.push(mesh.clone());
         number
     }
@@ -240,10 +247,6 @@ impl Resolver<'_> {
     pub(super) fn geometry(&self, number: u32) -> &Geometry {
         &self.geometries.list[number as usize]
     }
-}
-
-fn key(mesh: &Arc<Mesh>, normals: Normals) -> (usize, u8) {
-    (Arc::as_ptr(mesh) as usize, normals as u8)
 }
 
 /// What an object is called in a message.

@@ -78,8 +78,27 @@ pub(crate) const RENDER: &[Field] = &[
     field("aovs", Kind::Bool, "Whether albedo, normal, depth and ids are written; false where absent."),
 ];
 
-pub(crate) const MATERIAL_COMMON: &[Field] =
-    &[field("two_sided", Kind::Bool, "Whether an opaque surface also scatters on its back; true where absent.")];
+pub(crate) const MATERIAL_COMMON: &[Field] = &[
+    field("two_sided", Kind::Bool, "Whether an opaque surface also scatters on its back; true where absent."),
+    field("normal_map", Kind::Table(Section::Plain("normal map", NORMAL_MAP)), "A picture that bends the normals."),
+];
+
+pub(crate) const NORMAL_MAP: &[Field] = &[
+    needed("file", Kind::Text, "A picture of normals: red along growing u, green along growing v, blue outward."),
+    field("strength", Kind::Number([-1e3, 1e3]), "Factor of the slopes; 1 where absent."),
+    WRAP,
+    INTERPOLATION,
+    UV_SCALE,
+    UV_OFFSET,
+];
+
+const WRAP: Field =
+    field("wrap", Kind::Choice(&["repeat", "mirror", "clamp"]), "How it continues beyond 0 to 1; repeat where absent.");
+const INTERPOLATION: Field =
+    field("interpolation", Kind::Choice(&["bilinear", "nearest"]), "Between texels; bilinear where absent.");
+const UV_SCALE: Field = field("uv_scale", Kind::Numbers(2), "Factor of the texture coordinates; [1, 1] where absent.");
+const UV_OFFSET: Field =
+    field("uv_offset", Kind::Numbers(2), "Added to the scaled texture coordinates; [0, 0] where absent.");
 
 pub(crate) const TEXTURE: &[Field] = &[
     needed("file", Kind::Text, "An EXR, HDR, PNG or JPEG file."),
@@ -96,10 +115,10 @@ pub(crate) const TEXTURE: &[Field] = &[
     ),
     field("scale", Kind::NumberOr(3), "Factor of the texel; 1 where absent."),
     field("offset", Kind::Number([-1e9, 1e9]), "Added after the factor; 0 where absent."),
-    field("wrap", Kind::Choice(&["repeat", "mirror", "clamp"]), "How it continues beyond 0 to 1; repeat where absent."),
-    field("interpolation", Kind::Choice(&["bilinear", "nearest"]), "Between texels; bilinear where absent."),
-    field("uv_scale", Kind::Numbers(2), "Factor of the texture coordinates; [1, 1] where absent."),
-    field("uv_offset", Kind::Numbers(2), "Added to the scaled texture coordinates; [0, 0] where absent."),
+    WRAP,
+    INTERPOLATION,
+    UV_SCALE,
+    UV_OFFSET,
 ];
 
 pub(crate) const GROUP: &[Field] =

@@ -3,7 +3,9 @@
 use super::super::{Alpha, Asset, Description, ImageSource, Material, MetallicRoughness, Texture, Wrap};
 use super::container::Document;
 use super::{Error, Result, element};
+use ::gltf::json::extensions::texture::TextureTransform;
 use ::gltf::json::material::AlphaMode;
+use ::gltf::json::material::NormalTexture;
 use ::gltf::json::texture::{Info, MagFilter, WrappingMode};
 use ::gltf::json::{self, validation::Checked};
 
@@ -49,7 +51,7 @@ impl Reader<'_> {
             metallic_roughness_texture: self.texture(&pbr.metallic_roughness_texture)?,
             emissive: m.emissive_factor.0.map(|x| x * strength),
             emissive_texture: self.texture(&m.emissive_texture)?,
-            normal_texture: normal.map(|n| self.indexed(n.index.value(), n.tex_coord)).transpose()?.flatten(),
+            normal_texture: normal.map(|n| self.normal_texture(n)).transpose()?.flatten(),
             normal_scale: normal.map_or(1.0, |n| n.scale),
             alpha: match m.alpha_mode {
                 Checked::Valid(AlphaMode::Mask) => Alpha::Mask(m.alpha_cutoff.map_or(0.5, |c| c.0)),
@@ -60,6 +62,7 @@ impl Reader<'_> {
             double_sided: m.double_sided,
             ior: extensions.and_then(|e| e.ior.as_ref()).map_or(1.5, |i| i.ior.0),
             transmission: extensions.and_then(|e| e.transmission.as_ref()).map_or(0.0, |t| t.transmission_factor.0),
+            solid: extensions.and_then(|e| e.volume.as_ref()).is_some_and(|v| v.thickness_factor.0 > 0.0),
         };
         check(&out)?;
         Ok(out)
@@ -67,13 +70,23 @@ impl Reader<'_> {
 
     fn texture(&self, info: &Option<Info>) -> Result<Option<Texture>> {
         let Some(info) = info else { return Ok(None) };
-        let mut texture = self.indexed(info.index.value(), info.tex_coord)?;
         let transform = info.extensions.as_ref().and_then(|e| e.texture_transform.as_ref());
-        if let (Some(texture), Some(t)) = (&mut texture, transform) {
-            (texture.scale, texture.rotation, texture.offset) = (t.scale.0, t.rotation.0, t.offset.0);
-            texture.uv_set = t.tex_coord.unwrap_or(texture.uv_set);
-        }
-        Ok(texture)
+        self.transformed(info.index.value(), info.tex_coord, transform)
+    }
+
+    fn normal_texture(&self, normal: &NormalTexture) -> Result<Option<Texture>> {
+        let stated = normal.extensions.as_ref().and_then(|e| e.others.get("KHR_texture_transform"));
+        let transform = stated.map(|value| json::deserialize::from_value::<TextureTransform>(value.clone()));
+        let transform = transform.transpose().map_err(|e| Error::new(format!("KHR_texture_transform: {e}")))?;
+        self.transformed(normal.index.value(), normal.tex_coord, transform.as_ref())
+    }
+
+    fn transformed(&self, index: usize, uv_set: u32, transform: Option<&TextureTransform>) -> Result<Option<Texture>> {
+        let texture = self.indexed(index, transform.and_then(|t| t.tex_coord).unwrap_or(uv_set))?;
+        Ok(texture.map(|texture| match transform {
+            Some(t) => Texture { uv: upward(t.scale.0, t.rotation.0, t.offset.0), ..texture },
+            None => texture,
+        }))
     }
 
     /// `None` for a texture whose image is broken, of which a warning tells.
@@ -89,16 +102,29 @@ impl Reader<'_> {
             _ => Wrap::Repeat,
         };
         let Some(image) = element(self.images, texture.source.value(), "image")? else { return Ok(None) };
+        if uv_set > 1 {
+            return Err(Error::new(format!("texture {index} uses texture coordinates {uv_set}"))
+                .hint("the sets 0 and 1 are accepted"));
+        }
         Ok(Some(Texture {
             image: image.clone(),
-            uv_set,
+            uv_set: uv_set as usize,
+            uv: IDENTITY,
             wrap: sampler.map_or([Wrap::Repeat; 2], |s| [wrap(&s.wrap_s), wrap(&s.wrap_t)]),
             smooth: sampler.is_none_or(|s| s.mag_filter != Some(Checked::Valid(MagFilter::Nearest))),
-            scale: [1.0; 2],
-            rotation: 0.0,
-            offset: [0.0; 2],
         }))
     }
+}
+
+const IDENTITY: [[f32; 3]; 2] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
+
+/// The map of `KHR_texture_transform`, T R S of its text, between coordinates whose v runs upward: the file's run
+/// downward, so that it is turned over before and after.
+fn upward(scale: [f32; 2], rotation: f32, offset: [f32; 2]) -> [[f32; 3]; 2] {
+    let (sin, cos) = rotation.sin_cos();
+    // u' = su cos u + sv sin v + ou, v' = -su sin u + sv cos v + ov, with v = 1 - v_up and v'_up = 1 - v'
+    let [su, sv] = scale;
+    [[su * cos, -sv * sin, sv * sin + offset[0]], [su * sin, sv * cos, 1.0 - sv * cos - offset[1]]]
 }
 
 /// Refuses factors out of the ranges of the specification.

@@ -15,11 +15,12 @@ use container::Document;
 use std::path::Path;
 
 /// Extensions that a file may require.
-const SUPPORTED: [&str; 6] = [
+const SUPPORTED: [&str; 7] = [
     "KHR_lights_punctual",
     "KHR_materials_emissive_strength",
     "KHR_materials_ior",
     "KHR_materials_transmission",
+    "KHR_materials_volume",
     "KHR_mesh_quantization",
     "KHR_texture_transform",
 ];
@@ -152,6 +153,37 @@ mod tests {
             .replace("\"bufferView\":0,\"comp", "\"comp")
             .replace("\"count\":3", "\"count\":99999999999");
         assert!(message(&sparse).contains("accessor 0"), "{}", message(&sparse));
+    }
+
+    #[test]
+    fn texture_coordinates_run_upward_and_texture_transforms_with_them() {
+        let material = r#""materials":[{"pbrMetallicRoughness":{"baseColorTexture":{"index":0,"texCoord":1,
+            "extensions":{"KHR_texture_transform":{"offset":[0.1,0.2],"rotation":0.5,"scale":[2,3]}}}}}],
+            "textures":[{"source":0}],"images":[{"uri":"data:image/png;base64,AAAA"}],"buffers"#;
+        let json = triangle("", "")
+            .replace("\"buffers", material)
+            .replace(r#"{"POSITION":0}"#, r#"{"POSITION":0,"TEXCOORD_0":1,"TEXCOORD_1":1},"material":0"#)
+            .replace(
+                r#""accessors":["#,
+                r#""accessors":[{"bufferView":0,"componentType":5126,"type":"VEC3","count":3},
+                {"bufferView":0,"byteOffset":12,"componentType":5126,"type":"VEC2","count":3},"#,
+            );
+        let asset = from_bytes(json.as_bytes()).unwrap();
+        // floats 3 to 8 of the buffer: (1, 0), (0, 0), (1, 0)
+        let expected = [[1.0, 1.0], [0.0, 1.0], [1.0, 1.0]];
+        let mesh = &asset.meshes[0].mesh;
+        assert_eq!((mesh.uv_list(0), mesh.uv_list(1)), (&expected[..], &expected[..]));
+        let super::super::Description::MetallicRoughness(m) = &asset.materials[0].description else { panic!() };
+        let texture = m.base_color_texture.as_ref().unwrap();
+        assert_eq!(texture.uv_set, 1);
+        // the matrix of the extension's text, row by row: T * R * S
+        let (s, c) = 0.5f32.sin_cos();
+        let stated = |u: f32, v: f32| [2.0 * c * u + 3.0 * s * v + 0.1, -2.0 * s * u + 3.0 * c * v + 0.2];
+        for (u, v) in [(0.0, 0.0), (1.0, 0.0), (0.3, 0.8)] {
+            let up = texture.uv.map(|row| row[0] * u + row[1] * (1.0 - v) + row[2]);
+            let [x, y] = stated(u, v);
+            assert!((up[0] - x).abs() < 1e-6 && (up[1] - (1.0 - y)).abs() < 1e-6, "{up:?} {x} {y}");
+        }
     }
 
     #[test]

@@ -1,6 +1,6 @@
 //! Meshes.
 
-use super::super::{Asset, Description};
+use super::super::Asset;
 use super::accessor::Numbers;
 use super::container::Document;
 use super::{Error, Result, element};
@@ -50,23 +50,17 @@ fn add_primitive(
     if primitive.targets.as_ref().is_some_and(|t| !t.is_empty()) {
         asset.warn(format!("mesh `{name}`: morph targets left out"));
     }
+    if primitive.attributes.contains_key(&Checked::Valid(Semantic::Colors(0))) {
+        asset.warn(format!("mesh `{name}`: colours of vertices left out"));
+    }
     let Some(positions) = attribute(document, primitive, Semantic::Positions, 3)? else {
         asset.warn(format!("mesh `{name}`: a primitive without positions left out"));
         return Ok(None);
     };
     let corners = corners(document, primitive, positions.count, budget)?;
     let triangles = triangles(mode, &corners);
-    let data = mesh_data(document, primitive, &positions, triangles, uv_set(asset, material))?;
+    let data = mesh_data(document, primitive, &positions, triangles)?;
     asset.add_mesh(name, data, None, material)
-}
-
-/// The set of texture coordinates that the base colour uses.
-fn uv_set(asset: &Asset, material: Option<usize>) -> u32 {
-    let description = material.and_then(|m| asset.materials.get(m)).map(|m| &m.description);
-    match description {
-        Some(Description::MetallicRoughness(m)) => m.base_color_texture.as_ref().map_or(0, |t| t.uv_set),
-        _ => 0,
-    }
 }
 
 fn attribute<'a>(
@@ -124,7 +118,6 @@ fn mesh_data(
     primitive: &Primitive,
     positions: &Numbers<'_>,
     mut triangles: Vec<[u32; 3]>,
-    uv_set: u32,
 ) -> Result<MeshData> {
     let mut used: Vec<u32> = triangles.iter().flatten().copied().collect();
     used.sort_unstable();
@@ -144,9 +137,20 @@ fn mesh_data(
         fits(&normals, "normals")?;
         data.normals = used.iter().map(|&i| vector(&normals, i)).collect();
     }
-    if let Some(uvs) = attribute(document, primitive, Semantic::TexCoords(uv_set), 2)? {
-        fits(&uvs, "texture coordinates")?;
-        data.uvs = used.iter().map(|&i| [uvs.get(i as usize, 0), uvs.get(i as usize, 1)]).collect();
+    // the file's v runs downward
+    let upward = |n: &Numbers<'_>, i: u32| [n.get(i as usize, 0), 1.0 - n.get(i as usize, 1)];
+    for (set, list) in [(0, &mut data.uvs), (1, &mut data.uvs_1)] {
+        if let Some(uvs) = attribute(document, primitive, Semantic::TexCoords(set), 2)? {
+            fits(&uvs, "texture coordinates")?;
+            *list = used.iter().map(|&i| upward(&uvs, i)).collect();
+        }
+    }
+    // tangents without normals have no meaning
+    if !data.normals.is_empty()
+        && let Some(tangents) = attribute(document, primitive, Semantic::Tangents, 4)?
+    {
+        fits(&tangents, "tangents")?;
+        data.tangents = used.iter().map(|&i| [0, 1, 2, 3].map(|k| tangents.get(i as usize, k))).collect();
     }
     Ok(data)
 }
