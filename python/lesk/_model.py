@@ -27,7 +27,7 @@ class Sample(NamedTuple):
     wi: Array
     """Unit vectors to the light, shape (..., 3)."""
     weight: Array
-    """f |cos wi| / pdf per channel, shape (..., 3); 0 for a failed draw."""
+    """f times the cosine of `wi` over pdf per channel, shape (..., 3); 0 for a failed draw."""
     pdf: Array
     """Density in 1/sr, or the probability of a delta lobe, shape (...); 0 for a failed draw."""
     delta: npt.NDArray[np.bool_]

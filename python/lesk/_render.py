@@ -10,7 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from lesk import _lesk
-from lesk.errors import ParameterError, RenderInterrupted
+from lesk.errors import CheckpointError, ParameterError, RenderInterrupted
 from lesk.scene import Scene, load, parse
 
 
@@ -155,10 +155,16 @@ def render(
     """
     if spp is not None and spp < 1:
         raise ParameterError(f"`spp` is {spp}, but 1 or more is accepted")
+    if time is not None and not 0 <= time < 1e9:
+        raise ParameterError(f"`time` is {time:g}, but 0 to below 1e9 seconds are accepted")
     if threads is not None and threads < 1:
         raise ParameterError(f"`threads` is {threads}, but 1 or more is accepted")
     if resume and checkpoint is None:
         raise ParameterError("`resume` needs a checkpoint\nhint: give `checkpoint`, the file to go on from")
+    if resume and not Path(str(checkpoint)).is_file():
+        raise CheckpointError(
+            f"there is no checkpoint `{checkpoint}` to go on from\nhint: a render with `checkpoint` writes one"
+        )
     if not isinstance(scene, Scene):
         scene = parse(scene) if isinstance(scene, str) and "\n" in scene else load(scene)
     wishes = {

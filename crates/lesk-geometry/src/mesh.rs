@@ -143,7 +143,8 @@ impl Mesh {
                 data.positions.len() as u32 - 1
             });
         }
-        Mesh { data, bounds: self.bounds }
+        // the polygons keep their own numbering of vertices
+        Mesh { data, bounds: self.bounds, polygons: self.polygons.clone() }
     }
 
     /// Three positions each, counter-clockwise seen from outside.

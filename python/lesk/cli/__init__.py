@@ -31,9 +31,12 @@ COMMANDS = {
 def main(arguments: list[str] | None = None) -> int:
     """Run the command line; returns the exit status: 0 fine, 1 a check came out false, 2 bad input."""
     words = sys.argv[1:] if arguments is None else arguments
-    if not words or words[0] in ("-h", "--help"):
+    if not words:
+        print(overview(), file=sys.stderr)
+        return 2
+    if words[0] in ("-h", "--help"):
         print(overview())
-        return 0 if words else 2
+        return 0
     if words[0] == "--version":
         from lesk import _lesk
 

@@ -6,12 +6,13 @@ import json
 import os
 import sys
 from collections.abc import Callable
+from pathlib import Path
 from typing import Annotated, Any
 
 import numpy as np
 import typer
 
-from lesk.errors import LeskError, ParameterError
+from lesk.errors import FileError, LeskError, ParameterError
 
 Json = Annotated[bool, typer.Option("--json", help="Print the result as JSON.")]
 Settings = Annotated[
@@ -35,7 +36,7 @@ def run(command: Callable[..., int | None], words: list[str]) -> int:
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return 0
     except OSError as error:
-        return fail(error)
+        return fail(reason(error))
     except KeyboardInterrupt:
         return fail("interrupted", 130)
     except Exception as error:
@@ -50,6 +51,18 @@ def fail(what: object, status: int = 2) -> int:
     # the faults of a scene come as a list that has the word already
     print(text if text.startswith("error: ") else f"error: {text}", file=sys.stderr)
     return status
+
+
+def reason(error: OSError) -> str:
+    """Say what the system refused, in the style of the house."""
+    what = (error.strerror or str(error)).lower()
+    return f"cannot use `{error.filename}`: {what}" if error.filename else what
+
+
+def require_folder(file: Path) -> None:
+    """Refuse a file whose folder does not exist, before work is done for it."""
+    if not file.parent.is_dir():
+        raise FileError(f"cannot write `{file}`: there is no folder `{file.parent}`\nhint: make the folder first")
 
 
 def emit(data: dict[str, Any]) -> None:
@@ -89,5 +102,7 @@ def direction(text: str, what: str) -> np.ndarray[Any, np.dtype[np.float64]]:
         raise ParameterError(
             f"`{what}` is `{text}`, but a polar angle and an azimuth in degrees are accepted, like `30,0`"
         )
+    if not np.isfinite(angles).all():
+        raise ParameterError(f"`{what}` is `{text}`, but finite angles are accepted")
     theta, phi = np.radians(angles)
     return np.array([np.sin(theta) * np.cos(phi), np.sin(theta) * np.sin(phi), np.cos(theta)])

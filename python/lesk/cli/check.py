@@ -10,7 +10,7 @@ import typer
 
 from lesk._check import CheckReport, check
 from lesk._registry import MODELS, find
-from lesk.cli._run import Json, emit
+from lesk.cli._run import Json, emit, require_folder
 
 
 def main(
@@ -24,6 +24,8 @@ def main(
     JSON: `passed`, and `models`, a list with `id`, `passed`, `rows` (`property`, `condition`, `verdict`, `value`,
     `allowed`, `place`, `note`, `seconds`), `albedo`, `seconds`.
     """
+    if html is not None:
+        require_folder(html)
     names = [info["id"] for info in MODELS] if name is None else [find(name)["id"]]
     reports: list[dict[str, Any]] = []
     for i, model in enumerate(names):
@@ -46,10 +48,15 @@ def show(model: dict[str, Any]) -> None:
     from rich.console import Console
     from rich.table import Table
 
+    class Output(Console):
+        def on_broken_pipe(self) -> None:
+            # rich would end with status 1, which says that a check came out false
+            raise BrokenPipeError
+
     table = Table(title=f"{model['id']}: {'ok' if model['passed'] else 'FAILED'}", title_justify="left")
     for column in ("property", "condition", "verdict", "worst", "allowed", "s"):
         table.add_column(column, justify="right" if column in ("worst", "allowed", "s") else "left")
     for row in model["rows"]:
         shown = ["" if row[key] is None else f"{row[key]:.4g}" for key in ("value", "allowed")]
         table.add_row(row["property"], row["condition"] or "always", row["verdict"], *shown, f"{row['seconds']:.2f}")
-    Console(highlight=False).print(table)
+    Output(highlight=False).print(table)

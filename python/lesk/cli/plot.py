@@ -7,8 +7,8 @@ from typing import Annotated, Any
 
 import typer
 
-from lesk.cli._run import Json, Settings, emit, parameters
-from lesk.errors import FileError, ParameterError
+from lesk.cli._run import Json, Settings, emit, parameters, require_folder
+from lesk.errors import FileError, ParameterError, nearest
 
 KINDS = ("polar", "lobe3d", "slice", "albedo", "sphere", "term")
 ENDINGS = (".png", ".svg")
@@ -30,10 +30,11 @@ def main(
     """
     kind = kind or ("term" if "." in name else "polar")
     if kind not in KINDS:
-        raise ParameterError(f"`--kind` is `{kind}`, but {', '.join(KINDS)} are accepted")
+        raise ParameterError(f"`--kind` is `{kind}`, but {', '.join(KINDS)} are accepted{nearest(kind, KINDS)}")
     output = output or Path(f"{name}-{kind}.png")
     if output.suffix.lower() not in ENDINGS:
         raise ParameterError(f"`{output.name}` ends in `{output.suffix}`, but {' and '.join(ENDINGS)} are accepted")
+    require_folder(output)
     figure = draw(name, kind, parameters(set_), theta_i, plane, compare or [])
     try:
         figure.savefig(output)

@@ -10,8 +10,9 @@ import typer
 
 from lesk._raster import Shading, shade
 from lesk._render import Progress, Render, render
-from lesk.cli._run import Json, emit, numbers
-from lesk.errors import ParameterError, RenderInterrupted
+from lesk.cli._run import Json, emit, numbers, require_folder
+from lesk.errors import ParameterError, RenderInterrupted, nearest, quoted
+from lesk.image import TONE_MAPPERS
 
 ENDINGS = (".exr", ".png", ".hdr")
 
@@ -52,8 +53,15 @@ def main(
     JSON: `output`, `ended`, `seconds`, `ev100`, `relative_error`, `rejected`, `resumed`; with the raster engine also
     `counts` of faces, vertices, samples and evaluations of models, and `warnings`.
     """
+    # before the work, not after it
     if output.suffix.lower() not in ENDINGS:
         raise ParameterError(f"`{output.name}` ends in `{output.suffix}`, but {', '.join(ENDINGS)} are accepted")
+    if tonemap not in TONE_MAPPERS:
+        hint = nearest(tonemap, TONE_MAPPERS)
+        raise ParameterError(f"`--tonemap` is `{tonemap}`, but {quoted(TONE_MAPPERS)} are accepted{hint}")
+    if ev100 is not None and not -50 <= ev100 <= 50:
+        raise ParameterError(f"`--ev100` is {ev100:g}, but -50 to 50 is accepted")
+    require_folder(output)
     if engine not in ("path", "raster"):
         raise ParameterError(f"there is no engine `{engine}`, but path, raster are accepted")
     if engine == "raster":

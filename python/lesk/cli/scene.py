@@ -9,8 +9,10 @@ from typing import Annotated
 import typer
 
 from lesk.cli._run import Json, emit
-from lesk.errors import ParameterError
+from lesk.errors import ParameterError, nearest
 from lesk.scene import load, schema
+
+ACTIONS = {"check", "schema"}
 
 
 def main(
@@ -26,7 +28,7 @@ def main(
         print(jsonlib.dumps(schema(), indent=2))
         return
     if action != "check" or file is None:
-        raise ParameterError("`lesk scene` takes `check FILE` or `schema`")
+        raise ParameterError(f"`lesk scene` takes `check FILE` or `schema`{nearest(action, ACTIONS - {action})}")
     scene = load(file)
     if json:
         emit(

@@ -10,7 +10,7 @@ import typer
 
 from lesk._registry import find
 from lesk._shader import export
-from lesk.cli._run import Json, emit
+from lesk.cli._run import Json, emit, require_folder
 
 
 def main(
@@ -28,6 +28,8 @@ def main(
 
     JSON: `model`, `language`, `source` (text; SPIR-V as hexadecimal digits).
     """
+    if output is not None:
+        require_folder(output)
     source = export(find(name)["id"], to, parts=part or ["eval", "pdf", "sample"], math=math, complete=complete)
     if json:
         emit({"model": name, "language": to, "source": source if isinstance(source, str) else source.hex()})

@@ -238,7 +238,8 @@ impl PolygonMesh {
             let polygon = &vertices.corners[self.face(face)];
             super::triangulate(&vertices.positions, polygon, &mut triangles);
         }
-        let data = MeshData { positions: vertices.positions, normals: vertices.normals, uvs: vertices.uvs, triangles };
+        let (positions, normals, uvs) = (vertices.positions, vertices.normals, vertices.uvs);
+        let data = MeshData { positions, normals, uvs, triangles, ..MeshData::default() };
         Ok(Mesh::new(data)?.0)
     }
 }
