@@ -9,9 +9,19 @@ project = "Lesk"
 author = "The Lesk authors"
 copyright = author
 language = "en"
-exclude_patterns = ["tests"]
+exclude_patterns = ["generated", "pictures", "tests"]
 
-extensions = ["gallery_pages", "model_pages", "myst_parser", "numpydoc", "sphinxcontrib.bibtex", "svg_math"]
+extensions = [
+    "gallery_pages",
+    "model_pages",
+    "myst_parser",
+    "numpydoc",
+    "pictures",
+    "scene_pages",
+    "sphinx.ext.autodoc",
+    "sphinxcontrib.bibtex",
+    "svg_math",
+]
 myst_enable_extensions = ["amsmath", "colon_fence", "deflist", "dollarmath"]
 myst_heading_anchors = 3
 myst_links_external_new_tab = False
@@ -19,6 +29,10 @@ myst_links_external_new_tab = False
 bibtex_bibfiles = ["../references.bib"]
 bibtex_reference_style = "author_year"
 numpydoc_show_class_members = False
+autodoc_member_order = "bysource"
+autodoc_typehints = "none"
+# names in single backticks, as in Markdown
+default_role = "code"
 
 html_math_renderer = "svg"
 html_theme = "furo"

@@ -60,6 +60,13 @@ def claim_rows(model):
         yield name.replace("_", " "), holds, meaning
 
 
+def pictures(name):
+    """A lit sphere, a polar cut and the albedo, for the default parameters."""
+    alts = {"sphere": "a lit sphere", "polar": "polar cut of f", "albedo": "albedo over the angle"}
+    shown = [f"![{alt}](../pictures/{name}-{kind}.png)" for kind, alt in alts.items()]
+    return "```{container} plots\n" + "\n".join(shown) + "\n```\n"
+
+
 def page(model):
     """Write the page of a model."""
     name = model["id"]
@@ -69,6 +76,7 @@ def page(model):
 
 {model["doc"].strip()}
 
+{pictures(name)}
 ## Parameters
 
 {table(["name", "kind", "unit", "default", "legal values", "meaning"], parameter_rows(model))}

@@ -11,6 +11,7 @@ sys.path.insert(0, str(Path(__file__).parents[1] / "_ext"))
 
 import gallery_pages
 import model_pages
+import scene_pages
 import svg_math
 
 MODEL = {
@@ -98,3 +99,30 @@ def test_a_row_of_the_errata_has_both_numbers():
     row = {"id": "x", "slide": "S", "difference": "d", "case": "c", "unit": "lm", "slide_value": 680.0}
     page = gallery_pages.errata([{**row, "paper_value": 683.002, "command": "lesk lecture errata x"}])
     assert "| `x` | S | d: c | 680 lm | 683.002 lm | `lesk lecture errata x` |" in page
+
+
+def test_the_scene_reference_names_every_key_of_the_schema():
+    import lesk
+
+    schema = lesk.scene.schema()
+    text = scene_pages.reference(schema)
+
+    def names(value):
+        if isinstance(value, dict):
+            yield from value.get("properties", {})
+            yield from (name for inner in value.values() for name in names(inner))
+        elif isinstance(value, list):
+            yield from (name for inner in value for name in names(inner))
+
+    # parameters of models stand on their own pages
+    materials = {name for one in schema["$defs"]["material"]["oneOf"] for name in one["properties"]}
+    assert {
+        name for name in set(names(schema)) - materials - scene_pages.CHAPTERS.keys() if f"`{name}`" not in text
+    } == set()
+
+
+def test_the_reference_says_what_a_key_accepts():
+    assert scene_pages.accepted({"type": "integer", "minimum": 1, "maximum": 256}) == "an integer, 1 to 256"
+    assert scene_pages.accepted({"enum": ["a", "b"]}) == "`a`, `b`"
+    assert scene_pages.accepted({"type": "array", "items": {"type": "number"}, "minItems": 3}) == "3 numbers"
+    assert scene_pages.accepted({"type": "string", "examples": ["1 lm"]}) == 'a quantity like `"1 lm"`'

@@ -180,8 +180,7 @@ impl Shaded {
         let mut polygons = polygons_of(geometry, settings.tessellation);
         polygons.turn_to_normals();
         let shading = polygons.shading(settings.normals, settings.edges)?;
-        let mut vertices = polygons.vertices(&shading);
-        flip_v_of_sphere(geometry, &mut vertices);
+        let vertices = polygons.vertices(&shading);
         let cut = settings.interpolation == Interpolation::Barycentric && settings.shading != Mode::Flat;
         if !cut {
             return Ok(Shaded { vertices, sizes: polygons.data().sizes.clone() });
@@ -210,12 +209,5 @@ fn polygons_of(geometry: &Geometry, around: u32) -> PolygonMesh {
             (vec3(r * (TAU * turn).cos(), r * (TAU * turn).sin(), 0.0), Vec3::Z)
         }),
         Geometry::Cylinder { capped } => cylinder_polygons(around, (around / 8).max(1), *capped),
-    }
-}
-
-/// The exact sphere counts v from its upper pole, the mesh from the lower one.
-fn flip_v_of_sphere(geometry: &Geometry, vertices: &mut Vertices) {
-    if matches!(geometry, Geometry::Sphere) {
-        vertices.uvs.iter_mut().for_each(|uv| uv[1] = 1.0 - uv[1]);
     }
 }
