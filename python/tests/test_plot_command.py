@@ -38,7 +38,7 @@ def test_json_says_what_was_drawn(tmp_path, capsys):
         (["ggx", "--kind", "pie"], "`--kind` is `pie`"),
         (["ggx", "-o", "plot.bmp"], "`plot.bmp` ends in `.bmp`, but .png and .svg are accepted"),
         (["ggx", "--kind", "slice", "--compare", "ward"], "shows one model"),
-        (["ggx", "-o", "no/such/folder/plot.png"], "cannot write `no/such/folder/plot.png`: no such file or directory"),
+        (["ggx", "-o", "no/such/folder/plot.png"], "cannot write `no/such/folder/plot.png`: there is no folder"),
     ],
 )
 def test_wrong_use_exits_2_and_explains(words, text, capsys, tmp_path, monkeypatch):
