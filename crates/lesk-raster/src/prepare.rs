@@ -180,7 +180,7 @@ impl Shaded {
         let mut polygons = polygons_of(geometry, settings.tessellation);
         polygons.turn_to_normals();
         let shading = polygons.shading(settings.normals, settings.edges)?;
-        let vertices = polygons.vertices(&shading);
+        let mut vertices = polygons.vertices(&shading);
         let cut = settings.interpolation == Interpolation::Barycentric && settings.shading != Mode::Flat;
         if !cut {
             return Ok(Shaded { vertices, sizes: polygons.data().sizes.clone() });
