@@ -137,19 +137,23 @@ class Llvmpipe:
 
     @property
     def name(self) -> str:
+        """What draws."""
         return f"{self.context.info['GL_RENDERER']}, {self.context.info['GL_VERSION']}"
 
     def load(self, positions: np.ndarray, normals: np.ndarray, triangles: np.ndarray) -> None:
+        """Hands a mesh to the peer."""
         vertices = self.context.buffer(np.concatenate([positions, normals], 1).tobytes())
         indices = self.context.buffer(triangles.tobytes())
         self.array = self.context.vertex_array(self.program, [(vertices, "3f 3f", "p", "n")], indices)
 
     def draw(self) -> None:
+        """One frame, to its end."""
         self.target.clear(0.0, 0.0, 0.0, 1.0, depth=1.0)
         self.array.render(self.gl.TRIANGLES)
         self.context.finish()
 
     def covered(self) -> int:
+        """Pixels that are not black."""
         pixels = np.frombuffer(self.target.read(components=4), np.uint8).reshape(HEIGHT, WIDTH, 4)
         return int((pixels[..., :3] > 0).any(axis=2).sum())
 

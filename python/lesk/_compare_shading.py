@@ -92,7 +92,9 @@ def compare_shading(
     Comparison
     """
     if normals not in NAMES["normals"]:
-        raise ParameterError(f"there is no rule `{normals}` for normals, but {', '.join(NAMES['normals'])} are accepted")
+        raise ParameterError(
+            f"there is no rule `{normals}` for normals, but {', '.join(NAMES['normals'])} are accepted"
+        )
     if not isinstance(scene, Scene):
         scene = parse(scene) if isinstance(scene, str) and "\n" in scene else load(scene)
     options: dict[str, Any] = {"normals": normals, "crease_angle_deg": crease_angle_deg, "shadows": True}
@@ -129,8 +131,8 @@ def _figure(found: Comparison) -> Figure:
     height, width = found.reference.rgb.shape[:2]
     figure = Figure(figsize=(13, 2.0 + 3 * 3.1 * min(1.2, height / width)), dpi=110, layout="constrained")
     axes = figure.subplots(3, 4)
-    shown = {mode: image.develop(one.rgb, ev100) for mode, one in found.shaded.items()}
-    shown["reference"] = image.develop(found.reference.rgb, ev100)
+    shown = {mode: image.develop(one.rgb, ev100=ev100) for mode, one in found.shaded.items()}
+    shown["reference"] = image.develop(found.reference.rgb, ev100=ev100)
     truth = found.reference.rgb.astype(float)
     white = float(np.quantile(truth.max(axis=2), 0.99)) or 1.0
     for place, name in zip(axes[0], columns, strict=True):
@@ -190,7 +192,9 @@ def _curve(figure: Figure, axes: npt.NDArray[Any], curve: Sequence[dict[str, Any
     place = figure.add_subplot(grid[2, 2:])
     if not curve:
         place.axis("off")
-        place.text(0.5, 0.5, "no curved shape to tessellate:\nthe faces are those of the meshes", ha="center", va="center")
+        place.text(
+            0.5, 0.5, "no curved shape to tessellate:\nthe faces are those of the meshes", ha="center", va="center"
+        )
         return
     faces = [p["faces"] for p in curve]
     for mode in MODES:

@@ -142,8 +142,7 @@ def _project(
 
 def _layers(mesh: Edges, points: npt.NDArray[np.float64], depth: npt.NDArray[np.float64]) -> list[tuple[Any, ...]]:
     """Faces and edges in slices from back to front: a painter's algorithm, good enough to tell edges apart."""
-    starts = np.concatenate([[0], np.cumsum(mesh.sizes, dtype=np.int64)])
-    faces = [mesh.corners[a:b] for a, b in zip(starts[:-1], starts[1:], strict=True)]
+    faces = np.split(mesh.corners, np.cumsum(mesh.sizes, dtype=np.int64)[:-1])
     face_depth = np.array([depth[f].mean() for f in faces])
     edge_depth = depth[mesh.edges].mean(axis=1)
     # an edge lies on its faces: a little towards the viewer

@@ -28,9 +28,7 @@ def main(
     """
     facts = mesh.report(file, crease_angle_deg=crease_angle)
     if output is not None:
-        mesh.draw(
-            file, output, crease_angle_deg=crease_angle, azimuth_deg=azimuth, elevation_deg=elevation
-        )
+        mesh.draw(file, output, crease_angle_deg=crease_angle, azimuth_deg=azimuth, elevation_deg=elevation)
     if json:
         emit({"file": str(file), **facts})
         return 0

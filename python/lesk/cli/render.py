@@ -133,9 +133,7 @@ def classic_of(words: str | None) -> dict[str, object] | None:
     return out
 
 
-def finish_shading(
-    shaded: Shading, output: Path, ev100: float | None, mapper: str, *, json: bool, quiet: bool
-) -> int:
+def finish_shading(shaded: Shading, output: Path, ev100: float | None, mapper: str, *, json: bool, quiet: bool) -> int:
     """Write a rasterised picture and say what it took."""
     save(shaded, output, ev100, mapper)
     if json:

@@ -1,0 +1,138 @@
+"""Rasterising and meshes from Python and from the command line."""
+
+import json
+
+import numpy as np
+import pytest
+
+import lesk
+from lesk.cli import main
+
+SCENE = """
+version = 1
+[camera]
+eye = [0, -4, 0]
+target = [0, 0, 0]
+fov = "40 deg"
+[film]
+size = [64, 48]
+[materials.clay]
+model = "lambert"
+reflectance = 0.6
+[[objects]]
+shape = "sphere"
+material = "clay"
+[[lights]]
+type = "point"
+position = [0, -4, 0]
+intensity = "100 cd"
+"""
+
+CUBE = "\n".join(
+    ["v {} {} {}".format(*(2 * ((k >> b) & 1) - 1 for b in range(3))) for k in range(8)]
+    + ["f 1 5 7 3", "f 2 4 8 6", "f 1 2 6 5", "f 3 7 8 4", "f 1 3 4 2", "f 5 6 8 7", ""]
+)
+
+
+@pytest.fixture
+def scene(tmp_path):
+    path = tmp_path / "ball.toml"
+    path.write_text(SCENE)
+    return path
+
+
+def test_phong_at_the_middle_of_a_sphere_is_the_closed_form():
+    picture = lesk.shade(SCENE, tessellation=256, supersampling=2)
+    # the lamp is at the camera, 3 m from the nearest point: L = rho/pi I/d^2
+    assert picture.rgb[23:25, 31:33].mean() == pytest.approx(0.6 / np.pi * 100 / 9, rel=2e-3)
+    assert picture.counts["evaluations"] == picture.counts["samples"]
+
+
+def test_evaluations_are_faces_vertices_or_samples():
+    counts = {mode: lesk.shade(SCENE, shading=mode, tessellation=16).counts for mode in ("flat", "gouraud", "phong")}
+    assert counts["flat"]["evaluations"] <= counts["flat"]["faces"] == 16 * 8
+    assert counts["gouraud"]["evaluations"] <= counts["gouraud"]["vertices"]
+    assert counts["phong"]["evaluations"] == counts["phong"]["samples"] > 500
+
+
+def test_layers_are_those_of_the_path_tracer():
+    shaded = lesk.shade(SCENE, aovs=True)
+    traced = lesk.render(SCENE, spp=1, aovs=True)
+    assert set(shaded.layers) == set(traced.layers)
+    assert shaded.faces.shape == (48, 64)
+
+
+def test_the_classic_model_needs_no_units_and_warns_above_one():
+    classic = {"ka": 0.5, "kd": 0.5, "ks": 0.5, "shininess": 10, "lights": [((0, -1, 0), (1, 1, 1))]}
+    picture = lesk.shade(SCENE, classic=classic)
+    assert picture.rgb[24, 32, 0] == pytest.approx(1.5, rel=1e-2)
+    assert "1.5" in picture.warnings[0]
+    assert lesk.shade(SCENE, classic=lesk.Classic()).warnings == []
+
+
+@pytest.mark.parametrize(
+    ("wrong", "message"),
+    [
+        ({"shading": "toon"}, "phong, gouraud, flat are accepted"),
+        ({"normals": "smooth"}, "max1999"),
+        ({"tessellation": 2}, "3 to 4096"),
+        ({"supersampling": -1}, "`supersampling` is -1"),
+        ({"crease_angle_deg": 200}, "0 to 180 deg"),
+        ({"threads": 0}, "`threads` is 0"),
+        ({"classic": {"kx": 1}}, "no `kx`"),
+        ({"classic": {"diffuse": (1, 2)}}, "2 numbers"),
+        ({"classic": {"kd": -1}}, "`kd` is -1"),
+    ],
+)
+def test_wrong_settings_are_named(wrong, message):
+    with pytest.raises(lesk.ParameterError, match=message):
+        lesk.shade(SCENE, **wrong)
+
+
+def test_render_has_a_raster_engine(scene, tmp_path, capsys):
+    out = tmp_path / "ball.png"
+    words = ["render", str(scene), "-o", str(out), "--engine", "raster", "--shading", "gouraud", "--json"]
+    assert main(words) == 0
+    facts = json.loads(capsys.readouterr().out)
+    assert facts["version"] == 1
+    assert facts["counts"]["evaluations"] <= facts["counts"]["vertices"]
+    assert out.read_bytes().startswith(b"\x89PNG")
+    assert main(["render", str(scene), "-o", str(out), "--engine", "fast"]) == 2
+    assert "path, raster are accepted" in capsys.readouterr().err
+    assert main([*words[:6], "raster", "--classic", "kd=x"]) == 2
+    assert main([*words[:6], "raster", "--classic", "kd=0.5,ks=0.6,h=20,highlight=blinn"]) == 0
+
+
+def test_compare_shading_orders_the_modes_by_their_errors(scene, tmp_path, capsys):
+    out = tmp_path / "compare.png"
+    words = ["compare-shading", str(scene), "-o", str(out), "--spp", "16", "--frames", "2", "--json"]
+    assert main(words) == 0
+    facts = json.loads(capsys.readouterr().out)
+    errors = {mode: one["error"] for mode, one in facts["modes"].items()}
+    assert errors["phong"] < errors["gouraud"] < errors["flat"]
+    assert [p["tessellation"] for p in facts["curve"]] == sorted(p["tessellation"] for p in facts["curve"])
+    assert out.read_bytes().startswith(b"\x89PNG")
+
+
+def test_mesh_reports_a_cube_and_draws_its_edges(tmp_path, capsys):
+    path = tmp_path / "cube.obj"
+    path.write_text(CUBE)
+    (one,) = lesk.mesh.report(path)["meshes"]
+    assert one["edges"] == {"real": 12, "auxiliary": 0, "boundary": 0, "non_manifold": 0}
+    assert (one["closed"], one["faces_by_corners"], one["area_m2"]) == (True, {"4": 6}, 24.0)
+    assert lesk.mesh.report(path, crease_angle_deg=100)["meshes"][0]["edges"]["auxiliary"] == 12
+    for ending in ("svg", "png"):
+        assert main(["mesh", str(path), "-o", str(tmp_path / f"cube.{ending}")]) == 0
+    assert "6 (6 with 4 corners), 12 triangles" in capsys.readouterr().out
+    assert main(["mesh", str(path), "--json"]) == 0
+    assert json.loads(capsys.readouterr().out)["version"] == 1
+
+
+def test_mesh_names_what_is_wrong(tmp_path, capsys):
+    assert main(["mesh", str(tmp_path / "none.obj")]) == 2
+    assert "cannot be read" in capsys.readouterr().err
+    path = tmp_path / "cube.obj"
+    path.write_text(CUBE)
+    assert main(["mesh", str(path), "--crease-angle", "270"]) == 2
+    assert "0 to 180 deg" in capsys.readouterr().err
+    assert main(["mesh", str(path), "-o", "edges.gif"]) == 2
