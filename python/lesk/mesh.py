@@ -113,9 +113,12 @@ def draw(
     points, towards = _project(mesh.positions, np.radians(azimuth_deg), np.radians(elevation_deg))
     figure = Figure(figsize=(7, 7), dpi=140)
     axes = figure.add_axes((0.02, 0.06, 0.96, 0.92))
-    for polygons, shades, lines, colors, widths in _layers(mesh, points, towards):
-        axes.add_collection(PolyCollection(polygons, facecolors=shades, edgecolors=shades, linewidths=0.3))
-        axes.add_collection(LineCollection(lines, colors=colors, linewidths=widths, capstyle="round"))
+    for order, (polygons, shades, lines, colors, widths) in enumerate(_layers(mesh, points, towards)):
+        style: dict[str, Any] = {"facecolors": shades, "edgecolors": shades, "linewidths": 0.3}
+        axes.add_collection(PolyCollection(polygons, zorder=2 * order, **style))
+        axes.add_collection(
+            LineCollection(lines, colors=colors, linewidths=widths, capstyle="round", zorder=2 * order + 1)
+        )
     axes.set_aspect("equal")
     axes.autoscale_view()
     axes.axis("off")
@@ -144,9 +147,12 @@ def _layers(mesh: Edges, points: npt.NDArray[np.float64], depth: npt.NDArray[np.
     """Faces and edges in slices from back to front: a painter's algorithm, good enough to tell edges apart."""
     faces = np.split(mesh.corners, np.cumsum(mesh.sizes, dtype=np.int64)[:-1])
     face_depth = np.array([depth[f].mean() for f in faces])
-    edge_depth = depth[mesh.edges].mean(axis=1)
-    # an edge lies on its faces: a little towards the viewer
-    edge_depth = edge_depth + 0.01 * (np.ptp(depth) or 1.0)
+    # an edge is drawn after the faces at both of its ends; equal positions count as one
+    _, place = np.unique(mesh.positions, axis=0, return_inverse=True)
+    place = place.reshape(-1)
+    nearest = np.full(len(mesh.positions), -np.inf)
+    np.maximum.at(nearest, place[mesh.corners], np.repeat(face_depth, mesh.sizes))
+    edge_depth = nearest[place[mesh.edges]].min(axis=1)
     slices = min(400, max(1, len(faces)))
     borders = np.linspace(face_depth.min(), face_depth.max(), slices + 1)
     face_slice = np.clip(np.searchsorted(borders, face_depth, side="right") - 1, 0, slices - 1)

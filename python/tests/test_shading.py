@@ -99,8 +99,8 @@ def test_render_has_a_raster_engine(scene, tmp_path, capsys):
     assert out.read_bytes().startswith(b"\x89PNG")
     assert main(["render", str(scene), "-o", str(out), "--engine", "fast"]) == 2
     assert "path, raster are accepted" in capsys.readouterr().err
-    assert main([*words[:6], "raster", "--classic", "kd=x"]) == 2
-    assert main([*words[:6], "raster", "--classic", "kd=0.5,ks=0.6,h=20,highlight=blinn"]) == 0
+    assert main([*words[:6], "--classic", "kd=x"]) == 2
+    assert main([*words[:6], "--classic", "kd=0.5,ks=0.6,h=20,highlight=blinn"]) == 0
 
 
 def test_compare_shading_orders_the_modes_by_their_errors(scene, tmp_path, capsys):
