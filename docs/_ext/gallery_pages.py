@@ -30,7 +30,7 @@ def draw(folder, names, since):
 
 def entry(idea, figures, shown):
     """Write the part of an idea; a figure appears once, with the first idea that has it."""
-    lines = [f"## {idea['slide']}", "", f"{idea['says'][0].upper()}{idea['says'][1:]}.", ""]
+    lines = [f"## {idea['slide']}", "", f"{idea['says']}.", ""]
     for name in idea["figures"]:
         figure = figures[name]
         if name in shown:
@@ -46,7 +46,7 @@ def entry(idea, figures, shown):
             "```",
             "",
         ]
-        lines += ["```console", f"$ lesk figure {name} -o {name}.{'png' if figure['animated'] else 'svg'}", "```", ""]
+        lines += ["```console", f"$ lesk figure {name} -o {name}.png", "```", ""]
     if idea["commands"]:
         lines += ["```console", *(f"$ {command}" for command in idea["commands"]), "```", ""]
     if idea["open"]:
@@ -71,26 +71,22 @@ def errata(rows):
     """Write the page of the differences between slides and papers."""
 
     def number(row, key):
-        value = f"{row[key]:.6g}"
-        return f"{value} {row['unit']}".strip()
+        return f"{row[key]:.6g} {row['unit']}".strip()
 
-    lines = [
-        (
-            f"`{row['id']}`",
-            row["slide"],
-            f"{row['difference']}: {row['case']}",
-            number(row, "slide_value"),
-            number(row, "paper_value"),
-            f"`{row['command']}`",
-        )
+    parts = [
+        f"## {row['slide']} (`{row['id']}`)\n\n{row['difference']}.\n\n"
+        + table(["case", "slide", "paper"], [(row["case"], number(row, "slide_value"), number(row, "paper_value"))])
+        + "\n```console\n"
+        + "".join(f"$ {command}\n" for command in dict.fromkeys([f"lesk lecture errata {row['id']}", row["command"]]))
+        + "```\n"
         for row in rows
     ]
     return (
         "# Errata\n\n"
         "Where a slide of the lecture and its paper differ, Lesk implements the paper.\n"
-        "Both numbers are computed when this book is built; `lesk lecture errata ID` computes those of one row.\n"
-        "A test holds each to the published number or to a closed form.\n\n"
-        + table(["row", "slide", "difference and case", "slide", "paper", "command"], lines)
+        "Both numbers are computed when this book is built; `lesk lecture errata ID` computes them again, the second command, "
+        "where there is one, shows the paper's in another way.\n"
+        "A test holds each number to the published one or to a closed form.\n\n" + "\n".join(parts)
     )
 
 

@@ -92,13 +92,13 @@ def test_a_figure_of_the_gallery_appears_once():
     ]
     page = gallery_pages.gallery(ideas, figures)
     assert page.count("```{figure} a.png") == 1 and page.count("(#figure-a)") == 1
-    assert "$ lesk figure a -o a.svg" in page
+    assert "$ lesk figure a -o a.png" in page
 
 
 def test_a_row_of_the_errata_has_both_numbers():
     row = {"id": "x", "slide": "S", "difference": "d", "case": "c", "unit": "lm", "slide_value": 680.0}
     page = gallery_pages.errata([{**row, "paper_value": 683.002, "command": "lesk lecture errata x"}])
-    assert "| `x` | S | d: c | 680 lm | 683.002 lm | `lesk lecture errata x` |" in page
+    assert "| c | 680 lm | 683.002 lm |" in page and page.count("$ lesk lecture errata x") == 1
 
 
 def test_the_scene_reference_names_every_key_of_the_schema():

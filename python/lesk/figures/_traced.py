@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import cache
 from importlib.resources import files
 from typing import Any
 
@@ -24,12 +25,11 @@ _PATHS = {
 _SEED = 1
 
 
-def light_paths(*, spp: int = 128) -> Plot:
+def light_paths(*, spp: int = 96) -> Plot:
     """Kinds of light paths.
 
     One room, its light split by the path that it took (after Ritschel et al. 2012): direct, indirect, specular and caustic
-    light add up to the picture. Percentages are shares of the mean luminance. The same from the command line:
-    `lesk render examples/scenes/light_paths.toml --split direct,indirect,specular,caustic -o paths.exr`.
+    light add up to the picture. Percentages are shares of the mean luminance.
 
     Parameters
     ----------
@@ -114,7 +114,8 @@ _MATERIALS = {
 }
 
 
-def stage(shape: str, light: str, material: str, *, size: int = 150, spp: int = 64) -> Array:
+@cache
+def stage(shape: str, light: str, material: str, *, size: int = 150, spp: int = 48) -> Array:
     """Render the demo scene of one subject with a shape, a light and a material, by their names."""
     text = _STAGE.format(
         size=size,
@@ -127,7 +128,7 @@ def stage(shape: str, light: str, material: str, *, size: int = 150, spp: int = 
     return exposed(picture.rgb, picture)
 
 
-def appearance(*, size: int = 150, spp: int = 64) -> Plot:
+def appearance(*, size: int = 150, spp: int = 48) -> Plot:
     """Surface appearance is geometry, light and reflectance.
 
     One demo scene, varied in one of the three at a time: each row changes its part only, the middle picture of
@@ -158,17 +159,18 @@ def appearance(*, size: int = 150, spp: int = 64) -> Plot:
             for axes, choice in zip(line, choices, strict=True):
                 words = [*base]
                 words[part] = choice
-                show(axes, stage(*words, size=size, spp=spp), choice)
+                shape, light, material = words
+                show(axes, stage(shape, light, material, size=size, spp=spp), choice)
             line[0].set_ylabel(name, fontsize=11)
     return fig
 
 
-def light_sources(*, size: int = 170, spp: int = 64) -> Plot:
+def light_sources(*, size: int = 170, spp: int = 48) -> Plot:
     """Light sources.
 
     One scene under five lights: point, spot, directional, area with its penumbra, and an environment. A faint sky keeps
     shadows from being black. The point light has 600 cd, the directional light 75 lx, the area light 1900 lm, the
-    environment 24 cd/m².
+    environment 17 cd/m².
 
     Parameters
     ----------
