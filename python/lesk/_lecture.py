@@ -53,12 +53,14 @@ IDEAS = (
     Idea(
         "The Sun",
         "3.86e26 W at 1.5e11 m: 1365 W/m², 546 W/m² visible",
-        commands=('lesk quantity "3.86e26 W" --to W/m2 --at 1.5e11m --bands',),
+        ("sun",),
+        ('lesk quantity "3.86e26 W" --to W/m2 --at 1.5e11m --bands',),
     ),
     Idea(
         "LED bulb",
         "1100 lm at 1.5 m: 38.9 lx; 50, 100, 300 lx wanted",
-        commands=('lesk quantity "1100 lm" --to lx --at 1.5m',),
+        ("led_bulb",),
+        ('lesk quantity "1100 lm" --to lx --at 1.5m',),
     ),
     Idea("Light sources", "directional, point, spot, area, environment", ("light_sources",)),
     Idea(

@@ -237,3 +237,26 @@ def test_wrong_use_is_explained(make, text):
     with pytest.raises(lesk.ParameterError) as error:
         make()
     assert text in str(error.value)
+
+
+def test_the_exercises_have_the_numbers_of_the_lecture():
+    from lesk.figures import _exercises
+
+    assert float(_exercises.irradiance(3.86e26, 1.5e11)) == pytest.approx(1365, abs=0.5)
+    assert 0.4 * float(_exercises.irradiance(3.86e26, 1.5e11)) == pytest.approx(546, abs=0.5)
+    assert float(_exercises.irradiance(1100, 1.5)) == pytest.approx(38.9, abs=0.05)
+    # shares of a black body of 5778 K, as the lecture's notes state them
+    assert _exercises.band_share(5778, 380, 780) == pytest.approx(0.465, abs=5e-4)
+    assert _exercises.band_share(5778, 400, 700) == pytest.approx(0.367, abs=5e-4)
+    assert _exercises.band_share(5778, 10, 20_000) == pytest.approx(1, abs=1e-3)
+    text = shown(figures.sun()) + shown(figures.led_bulb())
+    assert "1365 W/m², 40 % of it 546 W/m²" in text and "38.9 lx at 1.5 m" in text
+
+
+def test_the_series_of_a_band_is_the_integral_of_plancks_law():
+    from lesk.figures import _exercises
+
+    nm = np.linspace(400, 700, 20001)
+    power = np.pi * np.trapezoid(_exercises.spectral_radiance(5778, nm), nm)
+    # Stefan and Boltzmann, CODATA 2018
+    assert power / (5.670374419e-8 * 5778**4) == pytest.approx(_exercises.band_share(5778, 400, 700), rel=1e-6)

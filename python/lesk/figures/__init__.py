@@ -15,6 +15,7 @@ from typing import Any, NamedTuple
 
 from lesk.figures._classic import phong_blinn, phong_table, shininess
 from lesk.figures._diagrams import auxiliary_edges, bilinear, crease_angle, vertex_normals
+from lesk.figures._exercises import led_bulb, sun
 from lesk.figures._microfacets import cook_torrance, fresnel, microfacet_terms, microfacets
 from lesk.figures._surfaces import oren_nayar, reflection_types, ward_satin
 from lesk.figures._tables import f0_table, metallic_dial, timeline
@@ -23,6 +24,8 @@ from lesk.figures._traced import appearance, light_paths, light_sources
 _MAKERS = (
     light_paths,
     appearance,
+    sun,
+    led_bulb,
     light_sources,
     reflection_types,
     phong_table,

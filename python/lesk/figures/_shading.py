@@ -45,7 +45,14 @@ _POT = 'shape = "teapot"\nlevel = {level}\ntransform = [{{ scale = 0.5 }}, {{ ro
 def _scene(
     shape: str, size: tuple[int, int], *, eye: Any = (0, -40, 0), target: Any = (0, 0, 0), fov: float = 3.1
 ) -> Scene:
-    text = _STAGE.format(eye=[float(x) for x in eye], target=[float(x) for x in target], fov=fov, width=size[0], height=size[1], shape=shape)
+    text = _STAGE.format(
+        eye=[float(x) for x in eye],
+        target=[float(x) for x in target],
+        fov=fov,
+        width=size[0],
+        height=size[1],
+        shape=shape,
+    )
     return parse(text)
 
 
