@@ -136,7 +136,7 @@ IDEAS = (
     Idea(
         "Gouraud against Phong",
         "Gouraud misses the maximum; not invariant to rotation",
-        open="figures of the rasteriser",
+        ("missed_highlights", "highlight_crossing", "rotating_quad"),
     ),
 )
 """All ideas in the order of the slides."""

@@ -13,7 +13,7 @@ from lesk import figures
 from lesk.figures import _classic, _diagrams, _microfacets, _sheet, _surfaces, _tables, _traced
 from lesk.plot._figure import direction
 
-QUICK = {"resolution": 24, "samples": 1, "spp": 1, "size": 12}
+QUICK = {"resolution": 24, "samples": 1, "spp": 1, "size": 12, "frames": 2, "width": 60}
 
 
 def quick(name):

@@ -15,14 +15,17 @@ ENDINGS = (".svg", ".png", ".pdf")
 
 def main(
     name: Annotated[str | None, typer.Argument(metavar="ID", help="The figure; without it, all are listed.")] = None,
-    output: Annotated[Path | None, typer.Option("-o", "--output", help="The file.")] = None,
+    output: Annotated[
+        Path | None,
+        typer.Option("-o", "--output", help="The file: .svg, .png or .pdf; of an animation .png, .apng or .gif."),
+    ] = None,
     json: Json = False,
 ) -> None:
     """Make a figure of the lecture, or list them.
 
     JSON: `figures`, a list with `id`, `title`, `caption`, `animated`; or these of one figure and `output`.
     """
-    from lesk.figures import ALL
+    from lesk.figures import ALL, Animation
 
     if name is None:
         if output is not None:
@@ -35,8 +38,10 @@ def main(
         )
     figure = ALL[name]
     output = output or Path(f"{name}.png")
-    if output.suffix.lower() not in ENDINGS:
-        raise ParameterError(f"`{output.name}` ends in `{output.suffix}`, but {', '.join(ENDINGS)} are accepted")
+    endings = Animation.ENDINGS if figure.animated else ENDINGS
+    if output.suffix.lower() not in endings:
+        kind = "an animation" if figure.animated else "a figure"
+        raise ParameterError(f"`{output.name}` ends in `{output.suffix}`, but {kind} accepts {', '.join(endings)}")
     try:
         figure.make().savefig(output)
     except OSError as error:
@@ -63,4 +68,4 @@ def _list(*, json: bool) -> None:
         return
     width = max(map(len, ALL))
     for name, figure in ALL.items():
-        print(f"{name:{width}}  {figure.title}")
+        print(f"{name:{width}}  {figure.title}{' (animation)' if figure.animated else ''}")

@@ -13,10 +13,12 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any, NamedTuple
 
+from lesk.figures._animation import Animation
 from lesk.figures._classic import phong_blinn, phong_table, shininess
 from lesk.figures._diagrams import auxiliary_edges, bilinear, crease_angle, vertex_normals
 from lesk.figures._exercises import led_bulb, sun
 from lesk.figures._microfacets import cook_torrance, fresnel, microfacet_terms, microfacets
+from lesk.figures._shading import highlight_crossing, mach_bands, missed_highlights, rotating_quad, shading_modes
 from lesk.figures._surfaces import oren_nayar, reflection_types, ward_satin
 from lesk.figures._tables import f0_table, metallic_dial, timeline
 from lesk.figures._traced import appearance, light_paths, light_sources
@@ -40,10 +42,15 @@ _MAKERS = (
     oren_nayar,
     metallic_dial,
     timeline,
+    shading_modes,
+    mach_bands,
     bilinear,
     vertex_normals,
     auxiliary_edges,
     crease_angle,
+    missed_highlights,
+    highlight_crossing,
+    rotating_quad,
 )
 
 
@@ -69,4 +76,4 @@ def _described(make: Callable[..., Any]) -> Maker:
 ALL: dict[str, Maker] = {make.__name__: _described(make) for make in _MAKERS}
 """All figures by name, in the order of the lecture."""
 
-__all__ = ["ALL", "Maker", *sorted(make.__name__ for make in _MAKERS)]
+__all__ = ["ALL", "Animation", "Maker", *sorted(make.__name__ for make in _MAKERS)]

@@ -18,7 +18,7 @@ Frame = npt.NDArray[np.uint8]
 
 _DPI = 80
 _COLORS = 256
-"""Colours of a file, one palette for all frames: a third of the bytes, and no flicker between palettes."""
+"""Colours of a GIF, one palette for all frames: no flicker between palettes."""
 
 
 class Animation:
@@ -59,17 +59,23 @@ class Animation:
             raise FileError(f"cannot write `{path}`: {(error.strerror or str(error)).lower()}") from None
 
     def _bytes(self, kind: str) -> bytes:
-        # a picture of several frames gives the palette of all
-        palette = Image.fromarray(np.concatenate(self.frames[:: max(1, len(self.frames) // 6)]))
-        palette = palette.quantize(_COLORS, method=Image.Quantize.MEDIANCUT, dither=Image.Dither.NONE)
-        entries = np.array(palette.getpalette()).reshape(-1, 3)
-        entries[entries.sum(axis=1).argmax()] = 255  # the ground stays white
-        palette.putpalette(entries.ravel().tolist())
-        first, *rest = (Image.fromarray(f).quantize(palette=palette, dither=Image.Dither.NONE) for f in self.frames)
+        pictures = [Image.fromarray(frame) for frame in self.frames]
+        if kind == "GIF":
+            palette = self._palette()
+            pictures = [picture.quantize(palette=palette, dither=Image.Dither.NONE) for picture in pictures]
         buffer = io.BytesIO()
-        options: dict[str, Any] = {"save_all": True, "append_images": rest, "duration": 1000 * self.seconds, "loop": 0}
-        first.save(buffer, format=kind, optimize=True, **options)
+        options: dict[str, Any] = {"save_all": True, "append_images": pictures[1:], "duration": 1000 * self.seconds}
+        pictures[0].save(buffer, format=kind, optimize=True, loop=0, **options)
         return buffer.getvalue()
+
+    def _palette(self) -> Image.Image:
+        """The colours of several frames; the ground stays white."""
+        some = Image.fromarray(np.concatenate(self.frames[:: max(1, len(self.frames) // 6)]))
+        palette = some.quantize(_COLORS, method=Image.Quantize.MEDIANCUT, dither=Image.Dither.NONE)
+        entries = np.array(palette.getpalette()).reshape(-1, 3)
+        entries[entries.sum(axis=1).argmax()] = 255
+        palette.putpalette(entries.ravel().tolist())
+        return palette
 
     def _repr_png_(self) -> bytes:
         return self._bytes("PNG")

@@ -56,7 +56,7 @@ def _scene(
     return parse(text)
 
 
-def _light(across_deg: float, up_deg: float = 25) -> Array:
+def _light(across_deg: float, up_deg: float = 0) -> Array:
     """Direction towards a light in front of the camera, which looks along +y."""
     a, u = np.radians((across_deg, up_deg))
     return np.array([np.cos(u) * np.sin(a), -np.cos(u) * np.cos(a), np.sin(u)])
@@ -87,9 +87,9 @@ def shading_modes(*, size: int = 200, level: int = 4) -> Plot:
     Plot
         A matplotlib figure.
     """
-    scene = _scene(_POT.format(level=level), (size, size), eye=(0, -7, 2.6), target=(0, 0, 0.72), fov=28)
+    scene = _scene(_POT.format(level=level), (size, 3 * size // 4), eye=(0, -7, 2.6), target=(0.1, 0, 0.74), fov=26)
     with style():
-        fig = figure(7.6, 3.1)
+        fig = figure(7.6, 2.6)
         for axes, mode in zip(fig.subplots(1, 3), MODES, strict=True):
             picture = shade(scene, shading=mode, supersampling=2, classic=_shiny(_light(-35, 40)))
             where = {"flat": "faces", "gouraud": "vertices", "phong": "samples"}[mode]
@@ -141,7 +141,7 @@ def missed_highlights(*, size: int = 180, tessellation: int = 12) -> Plot:
 
 def extremes(tessellation: int) -> tuple[float, float]:
     """Azimuths of the light, degrees, at which Gouraud's largest value is smallest and largest."""
-    sweep = np.linspace(-60, 0, 31)
+    sweep = np.linspace(-60, 0, 21)
     peaks = [float(ball("gouraud", _light(a), size=60, tessellation=tessellation).rgb.max()) for a in sweep]
     return float(sweep[int(np.argmin(peaks))]), float(sweep[int(np.argmax(peaks))])
 
@@ -149,9 +149,9 @@ def extremes(tessellation: int) -> tuple[float, float]:
 def highlight_crossing(*, frames: int = 24, size: int = 120, tessellation: int = 12) -> Animation:
     """A highlight crosses a coarse ball.
 
-    The light moves from left to right. Gouraud's highlight appears at vertices and vanishes between them, flat shading
-    jumps from face to face, Phong's highlight moves evenly. Below the largest value of each picture over the light's
-    azimuth.
+    The light moves from left to right. Gouraud's highlight appears at vertices and vanishes between them, Phong's moves
+    evenly; constant shading misses it, because no face is turned that way. Below the largest value of each picture over the
+    light's azimuth.
 
     Parameters
     ----------
@@ -166,7 +166,7 @@ def highlight_crossing(*, frames: int = 24, size: int = 120, tessellation: int =
     -------
     Animation
     """
-    sweep = np.linspace(-70, 70, frames)
+    sweep = np.linspace(-60, 60, frames)
     pictures = {m: [ball(m, _light(a), size=size, tessellation=tessellation).rgb for a in sweep] for m in MODES}
     peaks = {m: [float(p.max()) for p in pictures[m]] for m in MODES}
     drawings = []
@@ -294,8 +294,11 @@ PIPE_LIGHT_DEG = -30.0
 
 
 def pipe(mode: str, sides: int, width: int, height: int = 3) -> Array:
-    """A matte cylinder of flat sides, seen from far, light from the left: rows of brightness, shape (height, width)."""
-    scene = _scene(_PIPE.replace("{{", "{").replace("}}", "}"), (width, height), fov=2.9)
+    """The middle of a matte cylinder, seen from far, light from the left: rows of brightness, shape (height, width).
+
+    Its rim is left out: colours of vertices behind it, which see the light from the back, would run into it.
+    """
+    scene = _scene(_PIPE.replace("{{", "{").replace("}}", "}"), (width, height), fov=2.05)
     light = _light(PIPE_LIGHT_DEG, 0)
     matte = Classic(ka=0, kd=0.9, ks=0, lights=[(tuple(float(v) for v in light), (1.0, 1.0, 1.0))])
     shaded = shade(scene, shading=mode, tessellation=sides, classic=matte, supersampling=2)
@@ -317,7 +320,7 @@ def inhibited(profile: Array, narrow: float = 4.0, wide: float = 10.0) -> Array:
 def mach_bands(*, width: int = 300) -> Animation:
     """Mach bands.
 
-    A cylinder of 6 to 24 flat sides. Where brightness has a step (flat) or a kink (Gouraud), the eye sees bands
+    The middle of a cylinder of 8 to 24 flat sides. Where brightness has a step (flat) or a kink (Gouraud), the eye sees bands
     that are not there: lateral inhibition sharpens every change. Solid: the brightness along a row; dotted: after a simple
     model of that inhibition (a difference of Gaussians), which overshoots at steps and kinks.
 
@@ -331,7 +334,7 @@ def mach_bands(*, width: int = 300) -> Animation:
     Animation
     """
     drawings = []
-    for sides in (6, 8, 10, 12, 16, 20, 24):
+    for sides in (8, 10, 12, 16, 20, 24):
         with style():
             fig = figure(5.8, 3.4)
             grid = fig.subplots(2, 2, height_ratios=(1, 1.6), sharex=True)
@@ -343,8 +346,8 @@ def mach_bands(*, width: int = 300) -> Animation:
                 axes = grid[1, column]
                 axes.plot(row, color=CURVES[0], linewidth=1.4, label="brightness")
                 axes.plot(inhibited(row), color=CURVES[1], linestyle=":", linewidth=1.6, label="as seen")
-                axes.set(ylim=(-0.05, 1.1), xlim=(0, width - 1), xticks=[], xlabel="across the cylinder")
-            grid[1, 0].legend(fontsize=8, loc="lower center", ncols=2)
+                axes.set(ylim=(0, 1.25), xlim=(0, width - 1), xticks=[], xlabel="across the cylinder")
+            grid[1, 0].legend(fontsize=8, loc="lower left", ncols=2)
             grid[1, 0].set_ylabel("brightness")
         drawings.append(drawn(fig))
     return Animation(drawings, seconds=0.9)
