@@ -62,7 +62,15 @@ IDEAS = (
         ("led_bulb",),
         ('lesk quantity "1100 lm" --to lx --at 1.5m',),
     ),
-    Idea("Light sources", "directional, point, spot, area, environment", ("light_sources",)),
+    Idea(
+        "Light sources",
+        "directional, point, spot, area, environment",
+        ("light_sources",),
+        tuple(
+            f"lesk render examples/scenes/lights_{kind}.toml -o {kind}.exr"
+            for kind in ("point", "spot", "directional", "area", "environment")
+        ),
+    ),
     Idea(
         "Light reflection at a surface",
         "ideal diffuse, ideal specular, glossy, retro-reflection, real",
@@ -126,7 +134,8 @@ IDEAS = (
     Idea(
         "Shading in rasterisation",
         "constant, interpolated colours, interpolated normals",
-        open="figures of the rasteriser",
+        ("shading_modes", "mach_bands"),
+        ("lesk compare-shading examples/scenes/shading.toml -o shading.png",),
     ),
     Idea("Principle of bilinear interpolation", "f_X from f_A, f_B, f_C, f_D by α, β, γ", ("bilinear",)),
     Idea("Computing vertex normals", "analytic; N = (N1 + N2 + N3 + N4)/4", ("vertex_normals",)),

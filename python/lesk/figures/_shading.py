@@ -314,7 +314,7 @@ def inhibited(profile: Array, narrow: float = 4.0, wide: float = 10.0) -> Array:
         padded = np.pad(profile, reach, mode="edge")
         return np.convolve(padded, kernel / kernel.sum(), mode="valid")
 
-    return cast("Array", profile + 2.0 * (blurred(narrow) - blurred(wide)))
+    return profile + 2.0 * (blurred(narrow) - blurred(wide))
 
 
 def mach_bands(*, width: int = 300) -> Animation:
