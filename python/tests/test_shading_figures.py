@@ -32,7 +32,8 @@ def scan_line(angle_deg):
 @pytest.fixture(scope="module")
 def quad():
     """The turning square."""
-    return _shading.Quad()
+    with _shading.Quad() as square:
+        yield square
 
 
 @pytest.mark.parametrize("angle", [0.0, 20.0, 45.0, 100.0, 170.0])
@@ -107,10 +108,10 @@ FRAMES = [np.full((12, 20, 3), level, np.uint8) for level in (0, 100, 255)]
 def test_an_animation_keeps_its_frames_and_its_white(ending, tmp_path):
     path = tmp_path / f"moves.{ending}"
     _animation.Animation(FRAMES, seconds=0.2).savefig(path)
-    picture = Image.open(path)
-    assert picture.n_frames == 3
-    picture.seek(2)
-    assert picture.info["duration"] == 200 and picture.convert("RGB").getpixel((5, 5)) == (255, 255, 255)
+    with Image.open(path) as picture:
+        assert picture.n_frames == 3
+        picture.seek(2)
+        assert picture.info["duration"] == 200 and picture.convert("RGB").getpixel((5, 5)) == (255, 255, 255)
 
 
 def test_an_animation_shows_itself_in_a_notebook():

@@ -11,7 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from lesk._raster import Classic, Shading, shade
-from lesk.figures._animation import Animation, drawn
+from lesk.figures._animation import Animation, Frame, drawn
 from lesk.figures._sheet import MARK, encoded, show
 from lesk.plot._figure import CURVES, INK, Array, Plot, figure, style
 from lesk.scene import Scene, parse
@@ -197,7 +197,10 @@ _PROBE = (0.32, 0.18)
 
 
 class Quad:
-    """A square with four brightnesses, turned on the screen; light and camera look along its axis."""
+    """A square with four brightnesses, turned on the screen; light and camera look along its axis.
+
+    Its file exists until the end of the `with` that it is used in.
+    """
 
     def __init__(self) -> None:
         self._folder = tempfile.TemporaryDirectory(prefix="lesk-quad-")
@@ -214,6 +217,12 @@ class Quad:
             f'shape = "mesh"\nfile = "{path.as_posix()}"\n'
             'transform = [{{ rotate = "{angle} deg" }}, {{ rotate = "90 deg", axis = [1, 0, 0] }}]'
         )
+
+    def __enter__(self) -> Quad:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self._folder.cleanup()
 
     def picture(self, angle_deg: float, interpolation: str, size: int) -> Array:
         """The quad turned by an angle, shape (size, size, 3)."""
@@ -256,7 +265,12 @@ def rotating_quad(*, frames: int = 30, size: int = 150) -> Animation:
     -------
     Animation
     """
-    quad = Quad()
+    with Quad() as quad:
+        return Animation(_turning(quad, frames, size), seconds=0.12)
+
+
+def _turning(quad: Quad, frames: int, size: int) -> list[Frame]:
+    """The frames of `rotating_quad`."""
     angles = np.linspace(0, 180, frames, endpoint=False)
     fine = np.linspace(0, 180, 91)
     kinds = ("bilinear", "barycentric")
@@ -277,7 +291,7 @@ def rotating_quad(*, frames: int = 30, size: int = 150) -> Animation:
             spots["curve"].set_xticks(range(0, 181, 45))
             spots["curve"].legend(fontsize=8, ncols=2, loc="lower right")
         drawings.append(drawn(fig))
-    return Animation(drawings, seconds=0.12)
+    return drawings
 
 
 def _on_screen(angle_deg: float, size: int) -> tuple[float, float]:
