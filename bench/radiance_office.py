@@ -117,7 +117,7 @@ def radiance(divisions: int, runs: int) -> np.ndarray:
         "-h",
         "-u+",
         "-ab",
-        "8",
+        "14",
         "-aa",
         "0",
         "-ad",
@@ -125,7 +125,7 @@ def radiance(divisions: int, runs: int) -> np.ndarray:
         "-as",
         "0",
         "-lr",
-        "-10",
+        "-14",
         "-lw",
         "1e-5",
     ]
@@ -165,7 +165,7 @@ def main() -> int:
     z = (ours - theirs) / np.hypot(our_error, their_error)
     limit = sidak_limit(len(z), ALPHA)
     print(
-        f"Radiance of pyradiance {getattr(pyradiance, '__version__', '?')}, -ab 8 -aa 0 -ad {divisions}, {count} runs"
+        f"Radiance of pyradiance {getattr(pyradiance, '__version__', '?')}, -ab 14 -aa 0 -ad {divisions}, {count} runs"
     )
     print(f"{len(z)} points, mean {ours.mean():.2f} lx (Lesk), {theirs.mean():.2f} lx (Radiance)")
     print(

@@ -211,6 +211,34 @@ def overcast_cone(half_angle_deg: float) -> float:
     return 3 / 7 * math.sin(a) ** 2 + 4 / 7 * (1 - math.cos(a) ** 3)
 
 
+# a, b, c, d, e of CIE S 011 for types 1 to 15
+CIE_SKIES = (
+    (4, -0.7, 0, -1, 0), (4, -0.7, 2, -1.5, 0.15), (1.1, -0.8, 0, -1, 0), (1.1, -0.8, 2, -1.5, 0.15), (0, -1, 0, -1, 0),
+    (0, -1, 2, -1.5, 0.15), (0, -1, 5, -2.5, 0.3), (0, -1, 10, -3, 0.45), (-1, -0.55, 2, -1.5, 0.15),
+    (-1, -0.55, 5, -2.5, 0.3), (-1, -0.55, 10, -3, 0.45), (-1, -0.32, 10, -3, 0.45), (-1, -0.32, 16, -3, 0.3),
+    (-1, -0.15, 16, -3, 0.3), (-1, -0.15, 24, -2.8, 0.15),
+)  # fmt: skip
+
+
+def cie_sky(number: int, elevation_deg: float) -> float:
+    """Horizontal illuminance over zenith luminance of a CIE general sky: the midpoint rule on 1000 x 1000 cells."""
+    a, b, c, d, e = CIE_SKIES[number - 1]
+    sun = math.pi / 2 - math.radians(elevation_deg)
+    n = 1000
+    square = (np.arange(n) + 0.5) / n
+    # cells of equal sin² Z: cos Z sin Z dZ is half their width
+    z = np.arcsin(np.sqrt(square))[:, None]
+    azimuth = 2 * math.pi * square[None, :]
+    chi = np.arccos(np.clip(math.cos(sun) * np.cos(z) + math.sin(sun) * np.sin(z) * np.cos(azimuth), -1, 1))
+
+    def indicatrix(x: Array) -> Array:
+        return np.asarray(1 + c * (np.exp(d * x) - math.exp(d * math.pi / 2)) + e * np.cos(x) ** 2)
+
+    gradation = (1 + a * np.exp(b / np.cos(z))) / (1 + a * math.exp(b))
+    relative = indicatrix(chi) * gradation / indicatrix(np.array(sun))
+    return float(math.pi * relative.mean())
+
+
 def ugr(background: float, sources: list[tuple[float, float, float]]) -> float:
     """UGR = 8 log10[(0.25/Lb) Σ L² ω / p²] from luminance, solid angle and position index of each source."""
     return 8 * math.log10(0.25 / background * sum(lum**2 * omega / p**2 for lum, omega, p in sources))

@@ -124,6 +124,7 @@ def cases() -> Iterator[Case]:
     yield from _points()
     yield from _surfaces()
     yield from _skies()
+    yield from _cie_skies()
     yield from _glass()
     yield from _rooms()
 
@@ -232,6 +233,27 @@ def _skies() -> Iterator[Case]:
         tube.thing("cylinder", radius="1 m", height=f"{height!r} m", capped=False, material=tube.diffuse(0.0))
         expected = 1000 * math.pi * exact.cosine_cone(angle)
         yield tube.point(f"uniform, cone of {angle} deg: sin2", expected, (0, 0, 0))
+
+
+def _cie_skies() -> Iterator[Case]:
+    for number, elevation in (
+        (1, 30),
+        (3, 30),
+        (5, 30),
+        (6, 15),
+        (6, 60),
+        (9, 30),
+        (12, 15),
+        (12, 60),
+        (15, 30),
+        (15, 60),
+    ):
+        sky = Case("CIE sky").sky(type="cie_sky", number=number, elevation=f"{elevation} deg", luminance="1000 cd/m2")
+        expected = 1000 * exact.cie_sky(number, elevation)
+        yield sky.point(f"type {number}, sun at {elevation} deg, horizontal", expected, (0, 0, 0))
+    overcast = Case("CIE sky").sky(type="cie_sky", number=16, elevation="30 deg", luminance="1000 cd/m2")
+    overcast.point("traditional overcast, horizontal: 7 pi / 9", 7000 * math.pi / 9, (0, 0, 0))
+    yield overcast.point("traditional overcast, vertical", 0.396177 * 7000 * math.pi / 9, (0, 0, 0), (1, 0, 0))
 
 
 def _glass() -> Iterator[Case]:

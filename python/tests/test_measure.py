@@ -189,6 +189,15 @@ def test_closed_forms_give_the_printed_values():
     np.testing.assert_allclose(overcast, [0.085154, 0.307418, 0.583684, 0.821429], atol=6e-7)
 
 
+def test_cie_skies_have_the_printed_ratios():
+    # lights.md 6.2, to its digits
+    for number, ratios in {6: (3.4558, 3.2778, 2.9775, 2.5842), 12: (7.2048, 6.3941, 4.8485, 3.1906)}.items():
+        found = [exact.cie_sky(number, elevation) for elevation in (15, 30, 45, 60)]
+        np.testing.assert_allclose(found, ratios, rtol=3e-4)
+    np.testing.assert_allclose([exact.cie_sky(n, 30) for n in (1, 3, 5)], [2.4495, 2.770, 3.14159], rtol=2e-4)
+    np.testing.assert_allclose([exact.cie_sky(15, e) for e in (15, 30, 60)], [10.338, 8.116, 3.016], rtol=1e-3)
+
+
 def test_form_factors_of_the_unit_cube_are_the_published_ones():
     # 0.199824896 and 0.200043776; the midpoint rule at 24 x 24 points keeps within 3e-4 (the shared edge is the worst)
     for square, expected in (

@@ -16,7 +16,7 @@ pub use ies::Generation;
 pub use opening::{Opening, OpeningShape, Outline};
 pub use planes::Symmetry;
 pub use text::{MAX_BYTES, Warning};
-pub use ugr::{REFLECTANCES, ROOMS, UgrTable};
+pub use ugr::{REFLECTANCES, ROOMS, UgrTable, position_index};
 pub use web::{Coordinates, Web};
 
 use crate::error::LightError;

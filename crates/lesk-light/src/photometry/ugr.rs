@@ -148,8 +148,8 @@ impl Photometry {
 }
 
 /// Guth's position index by Levin's formula (CIE 117:1995; *Lighting Design and Application* 5, 1975): the source lies
-/// `aside` of, `forward` along and `above` the horizontal line of sight.
-fn position_index(aside: f64, forward: f64, above: f64) -> f64 {
+/// `aside` of, `forward` along and `above` the horizontal line of sight, in any unit of length.
+pub fn position_index(aside: f64, forward: f64, above: f64) -> f64 {
     let alpha = aside.abs().atan2(above).to_degrees();
     let beta = aside.hypot(above).atan2(forward).to_degrees();
     let linear = 35.2 - 0.31889 * alpha - 1.22 * (-2.0 * alpha / 9.0).exp();

@@ -6,6 +6,7 @@
 use super::Reading;
 use super::receiver::{free_surface, narrow};
 use lesk_geometry::Surface;
+use lesk_light::photometry::position_index;
 use lesk_light::{Light, Receiver};
 use lesk_math::Vec3;
 use lesk_math::sobol::Sampler;
@@ -87,7 +88,7 @@ pub(super) fn glare(scene: &Scene, position: [f64; 3], direction: [f64; 3], up: 
 struct Seen {
     /// Solid angle that is not hidden, sr.
     solid_angle: f64,
-    /// Luminance times solid angle, lm/m²/sr... summed over the light: cd/m² sr.
+    /// Integral of the luminance over it, cd/m² sr.
     flux: f64,
     /// Illuminance of the plane across the line of sight, lx.
     illuminance: f64,
@@ -139,10 +140,8 @@ impl Seen {
 
 /// The position index of a source in direction `toward` for the line of sight `sight`, both of any length.
 ///
-/// Above the line of sight the formula that Levin fitted to Guth's data (IES *Lighting Handbook*), with α from the upward
-/// direction to the plane of source and sight and β between source and sight, in degrees; below it the one of Iwata &
-/// Tokura (*Position Index for a Glare Source Located below the Line of Vision*, 1997). 16 at most, the greatest value of
-/// the table of CIE 117.
+/// Above the line of sight Levin's formula, [`position_index`]; below it the one of Iwata & Tokura (*Position Index for a
+/// Glare Source Located below the Line of Vision*, 1997). 16 at most, the greatest value of the table of CIE 117.
 pub fn guth_position_index(toward: Vec3<f64>, sight: Vec3<f64>, up: Vec3<f64>) -> f64 {
     let sight = sight.normalize();
     let right = sight.cross(up).normalize();
@@ -152,11 +151,7 @@ pub fn guth_position_index(toward: Vec3<f64>, sight: Vec3<f64>, up: Vec3<f64>) -
         return 16.0;
     }
     let index = if height >= 0.0 {
-        let alpha = side.abs().atan2(height).to_degrees();
-        let beta = side.hypot(height).atan2(ahead).to_degrees();
-        let linear = 35.2 - 0.31889 * alpha - 1.22 * (-2.0 * alpha / 9.0).exp();
-        let square = 21.0 + 0.26667 * alpha - 0.002963 * alpha * alpha;
-        (linear * 1e-3 * beta + square * 1e-5 * beta * beta).exp()
+        position_index(side, ahead, height)
     } else {
         let ratio = side.hypot(height) / ahead;
         1.0 + if ratio < 0.6 { 0.8 } else { 1.2 } * ratio
