@@ -99,7 +99,7 @@ size = [{WIDTH}, {HEIGHT}]
 [materials.m]
 model = "blinn_phong"
 [[objects]]
-shape = "file"
+shape = "mesh"
 file = "{ply.name}"
 material = "m"
 [[lights]]
