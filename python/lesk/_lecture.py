@@ -135,7 +135,7 @@ IDEAS = (
         "Shading in rasterisation",
         "constant, interpolated colours, interpolated normals",
         ("shading_modes", "mach_bands"),
-        ("lesk compare-shading examples/scenes/shading.toml",),
+        ("lesk compare-shading examples/scenes/shading.toml -o shading.png",),
     ),
     Idea("Principle of bilinear interpolation", "f_X from f_A, f_B, f_C, f_D by α, β, γ", ("bilinear",)),
     Idea("Computing vertex normals", "analytic; N = (N1 + N2 + N3 + N4)/4", ("vertex_normals",)),
