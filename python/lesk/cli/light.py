@@ -50,7 +50,7 @@ def main(
     if resample is not None:
         lamps = [lamp.resample(*_steps(resample)) for lamp in lamps]
     reports = [report(file, lamp, ugr=ugr or json, spacing=spacing) for file, lamp in zip(files, lamps, strict=True)]
-    data = reports[0] if len(files) == 1 else {"files": reports, "difference": difference(*lamps)}
+    data: dict[str, Any] = reports[0] if len(files) == 1 else {"files": reports, "difference": difference(*lamps)}
     if output is not None:
         write(output, lamps, [file.name for file in files], kind, edition, data)
         print(f"{output} written", file=sys.stderr)
