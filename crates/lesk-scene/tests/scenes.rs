@@ -120,7 +120,7 @@ fn textured(texture: TextureDescription) -> SceneDescription {
     d.materials.push(MaterialDescription::new("rough", "ggx").set("alpha_x", &[0.3]));
     d.objects.push(ObjectDescription::new(Shape::Sphere { radius: 1.0 }).material("wood"));
     d.lights.push(LightDescription::new(
-        LightKind::Directional { direction: [0.0, 0.0, -1.0] },
+        LightKind::Directional { direction: [0.0, 0.0, -1.0], diameter: 0.0 },
         Emission::new(Quantity::parse("1 klx").unwrap()),
     ));
     d

@@ -169,7 +169,7 @@ fn ugr_of_a_disk_before_a_uniform_sky_is_the_formula() {
     );
     let found = readings(&scene(&body), 0.01);
     let glare = found[0].glare.as_ref().expect("a glare sensor has a rating");
-    let distance = (d[0] * d[0] + d[1] * d[1] + d[2] * d[2]).sqrt();
+    let distance = f64::sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
     let solid_angle = 2.0 * PI * (1.0 - distance / (distance * distance + r * r).sqrt());
     let vector = |v: [f64; 3]| lesk_math::Vec3::from(v);
     let p = guth_position_index(vector(d), vector([0.0, 1.0, 0.0]), vector([0.0, 0.0, 1.0]));

@@ -27,7 +27,10 @@ fn luminance(from: [f64; 3], normal: Option<[f32; 3]>, turn_deg: f64) -> (f64, f
     let turn = lesk_geometry::Transform::rotate_z(turn_deg.to_radians());
     d.objects.push(ObjectDescription::new(Shape::Rectangle { size: [50.0, 50.0] }).material("clay").at(turn));
     let amount = Quantity::parse("1000 lx").unwrap();
-    d.lights.push(LightDescription::new(LightKind::Directional { direction: from.map(|x| -x), diameter: None }, Emission::new(amount)));
+    d.lights.push(LightDescription::new(
+        LightKind::Directional { direction: from.map(|x| -x), diameter: 0.0 },
+        Emission::new(amount),
+    ));
     common::mean(&d.build().unwrap(), &settings(16, 1))
 }
 
