@@ -16,6 +16,8 @@ CHAPTERS = {
     "groups": "[groups.NAME]",
     "lights": "[[lights]]",
     "environment": "[environment]",
+    "sensors": "[[sensors]]",
+    "measure": "[measure]",
 }
 
 
@@ -125,7 +127,7 @@ def chapter(name, value, definitions):
             + "\nA step of `transform` has exactly one of these keys (`axis` goes with `rotate`):\n\n"
             + steps
         )
-    if name == "lights":
+    if name in ("lights", "sensors"):
         return variants(value["items"]["oneOf"], "type")
     if "oneOf" in value:
         return variants(value["oneOf"], "type")
