@@ -1,6 +1,6 @@
 //! One band of rows: which face each sample shows, then its light.
 
-use crate::frame::{CLIPPED, Chunk, Raster, SampleHit, aov};
+use crate::frame::{CLIPPED, Chunk, Raster, SampleHit, aov, corner_light};
 use crate::inside::{Row, Triangle, Weighted, unclip};
 use crate::lanes::{Points, Work};
 use crate::scan::{Band, Crossing};
@@ -160,6 +160,7 @@ impl BandJob<'_> {
         }
         let corners = raster.prepared.face(face);
         let surface = Surface::new(self, face);
+        let back = mode == Mode::Gouraud && raster.shows_back(corners, clipped);
         if let (&[a, b, c], None, Mode::Phong) = (corners, clipped, mode) {
             self.triangle_run(buffers, [a, b, c], &surface, run, white, out);
             return;
@@ -188,7 +189,8 @@ impl BandJob<'_> {
                 Mode::Gouraud => {
                     let mut light = [0.0f64; 3];
                     for &(v, w) in &buffers.whole {
-                        (0..3).for_each(|c| light[c] += w * f64::from(raster.light[v as usize][c]));
+                        let own = raster.light[corner_light(v, back)];
+                        (0..3).for_each(|c| light[c] += w * f64::from(own[c]));
                     }
                     write(out, target, self.shader.show(light.map(|l| l as f32), white));
                 }
@@ -303,7 +305,7 @@ impl BandJob<'_> {
         let Buffers { waiting, work, .. } = buffers;
         let Some(points) = waiting[kind as usize].as_mut().filter(|p| p.n > 0) else { return };
         let surface: Kind = self.raster.kinds[kind as usize];
-        self.shader.shade(surface, points, work);
+        self.shader.shade(surface, None, points, work);
         let phong = self.raster.settings.shading == Mode::Phong;
         for i in 0..points.n {
             if phong {

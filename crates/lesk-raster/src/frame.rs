@@ -65,7 +65,7 @@ pub struct Raster {
     pub(crate) kinds: Vec<Kind>,
     obstacles: Option<World>,
     pub(crate) screen: Vec<Screen>,
-    /// Light of vertices or faces, for the modes that interpolate or repeat it.
+    /// Light of vertices ([`corner_light`]) or faces, for the modes that interpolate or repeat it.
     pub(crate) light: Vec<[f32; 3]>,
 }
 
@@ -274,21 +274,26 @@ impl Raster {
             Mode::Gouraud => true,
             Mode::Flat => false,
         };
-        let count = if gouraud { self.prepared.positions.len() } else { self.prepared.face_count() };
+        let count = if gouraud { 2 * self.prepared.positions.len() } else { self.prepared.face_count() };
         let mut kind = vec![u32::MAX; count];
-        let faces = chunks.iter().flat_map(|c| c.bins.iter().flatten().map(move |&e| self.face_of(c, e)));
-        for face in faces {
+        let entries = chunks.iter().flat_map(|c| c.bins.iter().flatten().map(move |&e| (c, e)));
+        for (chunk, entry) in entries {
+            let face = self.face_of(chunk, entry);
             let own = self.kind_of[self.prepared.objects[face] as usize];
-            match gouraud {
-                true => self.prepared.face(face).iter().for_each(|&v| kind[v as usize] = own),
-                false => kind[face] = own,
+            if gouraud {
+                let corners = self.prepared.face(face);
+                let clipped = (entry & CLIPPED != 0).then(|| &chunk.clipped[(entry & !CLIPPED) as usize]);
+                let back = self.shows_back(corners, clipped);
+                corners.iter().for_each(|&v| kind[corner_light(v, back)] = own);
+            } else {
+                kind[face] = own;
             }
         }
         let mut order: Vec<u32> = (0..count as u32).filter(|&i| kind[i as usize] != u32::MAX).collect();
-        order.sort_by_key(|&i| kind[i as usize]);
+        let group = |i: u32| (kind[i as usize], gouraud && i & 1 == 1);
+        order.sort_by_key(|&i| group(i));
         let mut light = vec![[0.0; 3]; count];
-        let blocks: Vec<&[u32]> =
-            order.chunk_by(|&a, &b| kind[a as usize] == kind[b as usize]).flat_map(|c| c.chunks(BLOCK)).collect();
+        let blocks: Vec<&[u32]> = order.chunk_by(|&a, &b| group(a) == group(b)).flat_map(|c| c.chunks(BLOCK)).collect();
         let lit: Vec<Vec<[f32; 3]>> = blocks
             .par_iter()
             .map_init(
@@ -296,7 +301,8 @@ impl Raster {
                 |(points, work), block| {
                     points.n = 0;
                     block.iter().for_each(|&i| self.add_corner(gouraud, i as usize, points));
-                    shader.shade(self.kinds[kind[block[0] as usize] as usize], points, work);
+                    let (kind, back) = group(block[0]);
+                    shader.shade(self.kinds[kind as usize], gouraud.then_some(back), points, work);
                     (0..points.n).map(|i| [0, 1, 2].map(|c| work.sum[c.min(CHANNELS - 1)][i])).collect()
                 },
             )
@@ -306,6 +312,14 @@ impl Raster {
         }
         let evaluations = order.len() as u64;
         (light, evaluations)
+    }
+
+    /// Whether a face turns its back to the viewer: one answer for all of its corners.
+    pub(crate) fn shows_back(&self, corners: &[u32], clipped: Option<&Clipped>) -> bool {
+        match clipped {
+            Some(clipped) => signed_area(clipped.corners.iter().map(|c| c.screen)) >= 0,
+            None => signed_area(corners.iter().map(|&v| self.screen[v as usize])) >= 0,
+        }
     }
 
     /// The face of an entry of a bin.
@@ -320,7 +334,8 @@ impl Raster {
     fn add_corner(&self, gouraud: bool, index: usize, points: &mut Points) {
         let data = &self.prepared;
         let (p, n, uv, tangent) = if gouraud {
-            (data.positions[index], data.normals[index], data.uvs[index], Vec3::ZERO)
+            let vertex = index / 2;
+            (data.positions[vertex], data.normals[vertex], data.uvs[vertex], Vec3::ZERO)
         } else {
             let face = data.face(index);
             let count = match self.settings.flat_point {
@@ -346,6 +361,12 @@ impl Raster {
         points.uv[1][i] = uv[1];
         points.n += 1;
     }
+}
+
+/// Where the light of a vertex stands, as a corner of faces that show their front or their back.
+#[inline]
+pub(crate) fn corner_light(vertex: u32, back: bool) -> usize {
+    2 * vertex as usize + usize::from(back)
 }
 
 /// Twice the signed area on the screen, square steps: negative where corners run counter-clockwise for the viewer (y is

@@ -80,7 +80,20 @@ pub(crate) struct Sides {
     pub renormalize: bool,
     /// Tangents matter.
     pub anisotropic: bool,
+    /// The classic local model: it knows the interpolated normal only, wherever that points.
+    pub classic: bool,
+    /// Of vertices, whether the face shows its back; other points have a face of their own to tell.
+    pub back: Option<bool>,
 }
+
+impl Sides {
+    const USUAL: Sides =
+        Sides { transmits: false, two_sided: true, renormalize: true, anisotropic: false, classic: false, back: None };
+}
+
+/// Least cosine between the normal of a vertex and the viewer, as a model sees it: vertices just behind the silhouette
+/// count as on it, 0.6 degrees above the horizon.
+const GRAZING: f32 = 0.01;
 
 #[inline(always)]
 fn dot(a: &Rows3, b: &Rows3, i: usize) -> f32 {
@@ -105,11 +118,14 @@ fn orient_body(points: &mut Points, work: &mut Work, eye: [f32; 3], sides: Sides
             points.ns[c][i] = if usable { points.ns[c][i] * scale } else { points.ng[c][i] };
         }
         // normals that a coarse mesh bends beyond the horizon are no use
-        let bent = dot(&points.ns, &points.ng, i) <= 1e-4;
+        let bent = (dot(&points.ns, &points.ng, i) <= 1e-4) & !sides.classic;
         for c in 0..3 {
             points.ns[c][i] = if bent { points.ng[c][i] } else { points.ns[c][i] };
         }
-        let behind = dot(&points.ng, &work.wo, i) < 0.0;
+        let behind = match sides.back {
+            Some(back) => back,
+            None => dot(&points.ng, &work.wo, i) < 0.0,
+        };
         let turned = behind & !sides.transmits & sides.two_sided;
         work.alive[i] = if behind & !sides.transmits & !sides.two_sided { 0.0 } else { 1.0 };
         let sign = if turned { -1.0 } else { 1.0 };
@@ -117,9 +133,22 @@ fn orient_body(points: &mut Points, work: &mut Work, eye: [f32; 3], sides: Sides
             points.ng[c][i] *= sign;
             points.ns[c][i] *= sign;
         }
+        if sides.back.is_some() {
+            // the face decides for all of its corners; light from behind must not reach them by a turned normal
+            let side = if behind & !turned { -1.0 } else { 1.0 };
+            let cosine = dot(&points.ns, &work.wo, i);
+            let missing = if sides.classic { 0.0 } else { (side * GRAZING - cosine) * side };
+            let add = if missing > 0.0 { missing * side } else { 0.0 };
+            let n = [0, 1, 2].map(|c| points.ns[c][i] + work.wo[c][i] * add);
+            let scale = 1.0 / (n[0] * n[0] + n[1] * n[1] + n[2] * n[2]).sqrt();
+            for c in 0..3 {
+                points.ns[c][i] = n[c] * scale;
+                points.ng[c][i] = n[c] * scale;
+            }
+        }
         let agree = (dot(&points.ns, &work.wo, i) > 0.0) == (dot(&points.ng, &work.wo, i) > 0.0);
         for c in 0..3 {
-            points.ns[c][i] = if agree { points.ns[c][i] } else { points.ng[c][i] };
+            points.ns[c][i] = if agree | sides.classic { points.ns[c][i] } else { points.ng[c][i] };
         }
     }
     for i in 0..n {
@@ -235,10 +264,14 @@ macro_rules! lanes {
         unsafe fn orient(points: &mut Points, work: &mut Work, eye: [f32; 3], sides: Sides) {
             // constants fold into the common cases
             match sides {
-                Sides { transmits: false, two_sided: true, renormalize: true, anisotropic: false } => {
-                    let sides = Sides { transmits: false, two_sided: true, renormalize: true, anisotropic: false };
-                    orient_body(points, work, eye, sides)
-                }
+                Sides {
+                    transmits: false,
+                    two_sided: true,
+                    renormalize: true,
+                    anisotropic: false,
+                    classic: false,
+                    back: None,
+                } => orient_body(points, work, eye, Sides::USUAL),
                 _ => orient_body(points, work, eye, sides),
             }
         }

@@ -71,8 +71,9 @@ impl<'a> Shader<'a> {
         }
     }
 
-    /// Light towards the viewer, into `work.sum`.
-    pub fn shade(&self, kind: Kind, points: &mut Points, work: &mut Work) {
+    /// Light towards the viewer, into `work.sum`. `back` says of vertices whether their face shows its back; other points
+    /// have the normal of a face, which tells.
+    pub fn shade(&self, kind: Kind, back: Option<bool>, points: &mut Points, work: &mut Work) {
         work.sum.iter_mut().for_each(|row| row[..points.n].fill(0.0));
         let material = kind.material.map(|m| &self.scene.materials[m as usize]);
         let sides = Sides {
@@ -80,6 +81,8 @@ impl<'a> Shader<'a> {
             two_sided: self.classic.is_some() || material.is_none_or(Material::two_sided),
             renormalize: self.renormalize,
             anisotropic: self.needs(kind)[1],
+            classic: self.classic.is_some(),
+            back,
         };
         let front: Vec<Vec3<f32>> = match kind.light {
             Some(_) => (0..points.n).map(|i| at(&points.ng, i)).collect(),
@@ -118,16 +121,15 @@ impl<'a> Shader<'a> {
         let bridge = if classic.lights.is_empty() { FRAC_1_PI } else { 1.0 };
         let mut sums = [classic.ambient_term(); BLOCK];
         for source in &self.sources {
-            source.ask(self.scene, &self.lanes, points, work, false);
-            self.darken(source, points, work, false);
+            // the model knows no face, so neither do the lights
+            source.ask(self.scene, &self.lanes, points, work, true);
+            self.darken(source, points, work, true);
             for (i, sum) in sums[..points.n].iter_mut().enumerate() {
                 let mut light = Color::BLACK;
                 (0..CHANNELS).for_each(|c| light.0[c] = work.value[c][i] * bridge);
                 // not brought to unit length again where that is not wanted
                 let n = at(&points.ns, i) * work.length[i];
-                if at(&points.ng, i).dot(at(&work.wi, i)) > 0.0 {
-                    *sum = *sum + classic.light_term(n, at(&work.wi, i), at(&work.wo, i), light);
-                }
+                *sum = *sum + classic.light_term(n, at(&work.wi, i), at(&work.wo, i), light);
             }
         }
         for (i, sum) in sums[..points.n].iter().enumerate() {
