@@ -1,4 +1,4 @@
-//! Shades a scene file: `cargo run --release -p lesk-raster --example shade SCENE OUT.png [flat|gouraud|phong] [FRAMES]`.
+//! Shades a scene file: `cargo run --release -p lesk-raster --example shade SCENE OUT.png [flat|gouraud|phong] [FRAMES] [cull]`.
 
 use lesk_image::{ToneMapper, io, tonemap};
 use lesk_raster::{Frame, Raster, Settings};
@@ -9,7 +9,7 @@ use std::sync::Arc;
 fn main() -> Result<(), Box<dyn Error>> {
     let mut arguments = std::env::args().skip(1);
     let (Some(scene), Some(out)) = (arguments.next(), arguments.next()) else {
-        return Err("usage: shade SCENE OUT.png [flat|gouraud|phong] [FRAMES]".into());
+        return Err("usage: shade SCENE OUT.png [flat|gouraud|phong] [FRAMES] [cull]".into());
     };
     let scene = Arc::new(Scene::load(&scene)?);
     let mut settings = Settings::default();
@@ -17,6 +17,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         settings.shading = mode.parse()?;
     }
     let frames = arguments.next().map_or(Ok(1), |n| n.parse())?;
+    settings.cull = arguments.next().is_some_and(|word| word == "cull");
     let mut raster = Raster::new(scene.clone(), &settings)?;
     raster.warnings().iter().for_each(|w| eprintln!("warning: {w}"));
     let mut frame = Frame::default();
