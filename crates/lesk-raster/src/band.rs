@@ -1,18 +1,23 @@
 //! One band of rows: which face each sample shows, then its light.
 
+use crate::clip::Clipped;
 use crate::frame::{CLIPPED, Chunk, Raster, SampleHit, aov, corner_light};
-use crate::inside::{Row, Triangle, Weighted, unclip};
+use crate::inside::{Line, Row, Triangle, Weighted, unclip};
 use crate::lanes::{Points, Work};
+use crate::samples::{Samples, Spot};
 use crate::scan::{Band, Crossing};
 use crate::settings::Mode;
 use crate::shade::{Kind, Shader};
 use lesk_bsdf::kernels::BLOCK;
-use lesk_math::{CHANNELS, Vec3};
+use lesk_math::{CHANNELS, Isa, Vec3};
 use std::ops::Range;
 
 /// What a thread keeps from band to band.
 pub(crate) struct Buffers {
     band: Band,
+    /// Faces of the band, in the order of their numbers there, which begin at 1; clipped ones come after the others.
+    faces: Vec<u32>,
+    samples: Samples,
     crossings: Vec<Crossing>,
     corners: Vec<crate::view::Screen>,
     /// One block of waiting points per kind of surface.
@@ -24,9 +29,11 @@ pub(crate) struct Buffers {
 }
 
 impl Buffers {
-    pub fn new() -> Buffers {
+    pub fn new(isa: Isa) -> Buffers {
         Buffers {
-            band: Band::new(),
+            band: Band::new(isa),
+            faces: Vec::new(),
+            samples: Samples::default(),
             crossings: Vec::new(),
             corners: Vec::new(),
             waiting: Vec::new(),
@@ -43,22 +50,32 @@ pub(crate) struct BandJob<'a> {
     pub raster: &'a Raster,
     pub shader: &'a Shader<'a>,
     pub chunks: &'a [Chunk],
+    /// Of each kind, whether tangents matter.
+    pub anisotropic: Vec<bool>,
 }
 
 /// Where a band goes.
 struct Output<'o> {
     rgb: &'o mut [f32],
     hits: &'o mut [Option<SampleHit>],
+    first_row: u32,
+    width: u32,
+    /// What has the code 1.
+    white: f32,
 }
 
-/// Samples of one row that show the same face.
-#[derive(Clone, Copy)]
-struct Run {
-    y: u32,
-    start: u32,
-    end: u32,
-    /// Sample of the band at which it starts.
-    target: u32,
+impl Output<'_> {
+    /// Row and column of the film, and the number within the band.
+    #[inline]
+    fn place(&self, spot: Spot) -> ([u32; 2], u32) {
+        ([spot.column(), self.first_row + spot.row()], spot.row() * self.width + spot.column())
+    }
+
+    #[inline]
+    fn write(&mut self, target: u32, light: [f32; 3]) {
+        let at = 3 * target as usize;
+        self.rgb[at..at + 3].copy_from_slice(&light);
+    }
 }
 
 impl BandJob<'_> {
@@ -75,36 +92,37 @@ impl BandJob<'_> {
         buffers.waiting.resize_with(self.raster.kinds.len(), || None);
         buffers.band.start(width, rows.clone());
         self.cover(buffers, band);
-        let mut out = Output { rgb, hits };
-        let white = self.white();
-        let background = self.shader.background();
-        let mut covered = 0;
-        for y in rows.clone() {
-            let row = buffers.band.row(y);
-            let mut x = 0;
-            while x < width {
-                let id = buffers.band.ids[row.start + x as usize];
-                let same = buffers.band.ids[row.clone()][x as usize..].iter().take_while(|&&other| other == id);
-                let run = Run { y, start: x, end: x + same.count() as u32, target: row.start as u32 + x };
-                x = run.end;
-                if id == 0 {
-                    for k in 0..run.end - run.start {
-                        let light = background.as_ref().map_or([0.0; 3], |f| {
-                            let c = f(self.raster.view.world_ray(run.start + k, y));
-                            [0, 1, 2].map(|i| c.0[i.min(CHANNELS - 1)])
-                        });
-                        write(&mut out, run.target + k, self.shader.show(light, white));
-                    }
-                    continue;
-                }
-                covered += u64::from(run.end - run.start);
-                self.shade_run(buffers, id - 1, run, white, &mut out);
+        let mut out = Output { rgb, hits, first_row: rows.start, width, white: self.white() };
+        self.clear(&buffers.band, &mut out);
+        let mut samples = std::mem::take(&mut buffers.samples);
+        samples.sort(&buffers.band, buffers.faces.len());
+        for number in 0..buffers.faces.len() {
+            let spots = samples.of(1 + number as u32);
+            if !spots.is_empty() {
+                self.shade_face(buffers, buffers.faces[number], spots, &mut out);
             }
         }
         for kind in 0..self.raster.kinds.len() {
-            self.flush(buffers, kind as u32, white, &mut out);
+            self.flush(buffers, kind as u32, &mut out);
         }
+        let covered = samples.len() as u64;
+        buffers.samples = samples;
         covered
+    }
+
+    /// What is behind all faces.
+    fn clear(&self, band: &Band, out: &mut Output) {
+        out.rgb.fill(0.0);
+        let Some(background) = self.shader.background() else { return };
+        for y in band.rows.clone() {
+            for (x, &id) in band.ids[band.row(y)].iter().enumerate() {
+                if id == 0 {
+                    let light = background(self.raster.view.world_ray(x as u32, y));
+                    let light = self.shader.show([0, 1, 2].map(|c| light.0[c.min(CHANNELS - 1)]), out.white);
+                    out.write((y - band.rows.start) * out.width + x as u32, light);
+                }
+            }
+        }
     }
 
     fn white(&self) -> f32 {
@@ -116,106 +134,155 @@ impl BandJob<'_> {
     }
 
     /// Decides which face each sample of the band shows.
-    fn cover(&self, buffers: &mut Buffers, band: usize) {
+    fn cover(&self, buffers: &mut Buffers, number: usize) {
         let raster = self.raster;
-        let faces = raster.prepared.face_count() as u32;
+        let count = raster.prepared.face_count() as u32;
+        let Buffers { band, faces, corners, crossings, .. } = buffers;
+        faces.clear();
         for chunk in self.chunks {
-            for &entry in &chunk.bins[band] {
-                let Buffers { band, corners, crossings, .. } = &mut *buffers;
+            for &entry in &chunk.bins[number] {
+                let id = 1 + faces.len() as u32;
                 if entry & CLIPPED != 0 {
                     let number = entry & !CLIPPED;
                     corners.clear();
                     corners.extend(chunk.clipped[number as usize].corners.iter().map(|c| c.screen));
-                    band.polygon(1 + faces + chunk.offset + number, corners, crossings);
+                    band.polygon(id, corners, crossings);
+                    faces.push(count + chunk.offset + number);
                     continue;
                 }
                 match raster.prepared.face(entry as usize) {
-                    &[a, b, c] => band.triangle(1 + entry, [a, b, c].map(|v| raster.screen[v as usize])),
+                    &[a, b, c] => band.triangle(id, [a, b, c].map(|v| raster.screen[v as usize])),
                     face => {
                         corners.clear();
                         corners.extend(face.iter().map(|&v| raster.screen[v as usize]));
-                        band.polygon(1 + entry, corners, crossings);
+                        band.polygon(id, corners, crossings);
                     }
                 }
+                faces.push(entry);
             }
         }
     }
 
-    fn clipped(&self, number: u32) -> &crate::clip::Clipped {
+    fn clipped(&self, number: u32) -> &Clipped {
         let chunk = self.chunks.partition_point(|c| c.offset <= number) - 1;
         &self.chunks[chunk].clipped[(number - self.chunks[chunk].offset) as usize]
     }
 
-    /// Light of the samples of a run: at once where it is known already, else when its block is full.
-    fn shade_run(&self, buffers: &mut Buffers, id: u32, run: Run, white: f32, out: &mut Output) {
+    /// Light of the samples of a face: at once where it is known already, else when its block is full.
+    fn shade_face(&self, buffers: &mut Buffers, id: u32, spots: &[Spot], out: &mut Output) {
         let raster = self.raster;
         let faces = raster.prepared.face_count() as u32;
         let clipped = (id >= faces).then(|| self.clipped(id - faces));
-        let face = clipped.map_or(id as usize, |c| c.face as usize);
+        let face = clipped.map_or(id, |c| c.face);
         let mode = raster.settings.shading;
         if mode == Mode::Flat && out.hits.is_empty() {
-            let light = self.shader.show(raster.light[face], white);
-            (0..run.end - run.start).for_each(|k| write(out, run.target + k, light));
+            let light = self.shader.show(raster.light[face as usize], out.white);
+            spots.iter().for_each(|&spot| out.write(out.place(spot).1, light));
             return;
         }
-        let corners = raster.prepared.face(face);
+        let corners = raster.prepared.face(face as usize);
         let surface = Surface::new(self, face);
-        let back = mode == Mode::Gouraud && raster.shows_back(corners, clipped);
-        if let (&[a, b, c], None, Mode::Phong) = (corners, clipped, mode) {
-            self.triangle_run(buffers, [a, b, c], &surface, run, white, out);
-            return;
+        match (corners, clipped, mode) {
+            (&[a, b, c], None, Mode::Phong) => self.shade_triangle(buffers, [a, b, c], &surface, spots, out),
+            _ => self.shade_polygon(buffers, corners, clipped, &surface, spots, out),
         }
-        let triangle = match (corners, clipped) {
-            (&[a, b, c], None) => Some(self.triangle([a, b, c], run.y)),
-            (_, Some(clipped)) => {
-                buffers.row.clipped(clipped, run.y);
-                None
-            }
-            _ => {
-                buffers.row.face(&raster.prepared, &raster.screen, face, run.y);
-                None
-            }
-        };
-        for k in 0..run.end - run.start {
-            let x = run.start + k;
-            self.weigh(buffers, corners, triangle.as_ref(), clipped, x, run.y);
-            let target = run.target + k;
-            if mode == Mode::Phong || !out.hits.is_empty() {
-                self.wait(buffers, &surface, target, white, out);
-            }
-            match mode {
-                Mode::Phong => {}
-                Mode::Flat => write(out, target, self.shader.show(raster.light[face], white)),
-                Mode::Gouraud => {
-                    let mut light = [0.0f64; 3];
-                    for &(v, w) in &buffers.whole {
-                        let own = raster.light[corner_light(v, back)];
-                        (0..3).for_each(|c| light[c] += w * f64::from(own[c]));
-                    }
-                    write(out, target, self.shader.show(light.map(|l| l as f32), white));
+    }
+
+    /// The common case, without detours: a triangle in Phong shading.
+    fn shade_triangle(
+        &self,
+        buffers: &mut Buffers,
+        corners: [u32; 3],
+        surface: &Surface,
+        mut spots: &[Spot],
+        out: &mut Output,
+    ) {
+        let (data, view) = (&self.raster.prepared, &self.raster.view);
+        let triangle = self.triangle(corners);
+        let [p0, p1, p2] = corners.map(|v| data.positions[v as usize].to_array());
+        let [n0, n1, n2] = corners.map(|v| data.normals[v as usize].to_array());
+        let [t0, t1, t2] = corners.map(|v| data.uvs[v as usize]);
+        while !spots.is_empty() {
+            let points = waiting(&mut buffers.waiting, surface.kind);
+            let (these, rest) = spots.split_at(spots.len().min(BLOCK - points.n));
+            for &spot in these {
+                let ([x, y], target) = out.place(spot);
+                let [u, v] = triangle.row(view.line(y)).weights(view.column(x));
+                let i = points.n;
+                for c in 0..3 {
+                    points.p[c][i] = p0[c] + (p1[c] - p0[c]) * u + (p2[c] - p0[c]) * v;
+                    points.ns[c][i] = n0[c] + (n1[c] - n0[c]) * u + (n2[c] - n0[c]) * v;
                 }
+                for c in 0..2 {
+                    points.uv[c][i] = t0[c] + (t1[c] - t0[c]) * u + (t2[c] - t0[c]) * v;
+                }
+                surface.add(points, target);
+            }
+            spots = rest;
+            if points.n == BLOCK {
+                self.flush(buffers, surface.kind, out);
             }
         }
     }
 
-    fn triangle(&self, corners: [u32; 3], y: u32) -> Triangle {
-        let positions = corners.map(|v| self.raster.prepared.positions[v as usize]);
-        Triangle::new(&self.raster.view, positions, y, self.raster.settings.correction)
-    }
-
-    /// Vertices with their weights at a sample, into `buffers.whole`.
-    fn weigh(
+    /// Any other face, in any mode.
+    fn shade_polygon(
         &self,
         buffers: &mut Buffers,
         corners: &[u32],
-        triangle: Option<&Triangle>,
-        clipped: Option<&crate::clip::Clipped>,
-        x: u32,
-        y: u32,
+        clipped: Option<&Clipped>,
+        surface: &Surface,
+        spots: &[Spot],
+        out: &mut Output,
     ) {
+        let raster = self.raster;
+        let mode = raster.settings.shading;
+        let back = mode == Mode::Gouraud && raster.shows_back(corners, clipped);
+        let triangle = match (corners, clipped) {
+            (&[a, b, c], None) => Some(self.triangle([a, b, c])),
+            _ => None,
+        };
+        for row in spots.chunk_by(|a, b| a.row() == b.row()) {
+            let ([_, y], _) = out.place(row[0]);
+            let line = triangle.map(|t| t.row(raster.view.line(y)));
+            match clipped {
+                Some(clipped) => buffers.row.clipped(clipped, y),
+                None if line.is_none() => buffers.row.face(corners, &raster.screen, y),
+                None => {}
+            }
+            for &spot in row {
+                let ([x, _], target) = out.place(spot);
+                self.weigh(buffers, corners, line.as_ref(), clipped, x);
+                if mode == Mode::Phong || !out.hits.is_empty() {
+                    self.wait(buffers, surface, target, out);
+                }
+                let light = match mode {
+                    Mode::Phong => continue,
+                    Mode::Flat => raster.light[surface.face as usize],
+                    Mode::Gouraud => {
+                        let mut light = [0.0f64; 3];
+                        for &(v, w) in &buffers.whole {
+                            let own = raster.light[corner_light(v, back)];
+                            (0..3).for_each(|c| light[c] += w * f64::from(own[c]));
+                        }
+                        light.map(|l| l as f32)
+                    }
+                };
+                out.write(target, self.shader.show(light, out.white));
+            }
+        }
+    }
+
+    fn triangle(&self, corners: [u32; 3]) -> Triangle {
+        let positions = corners.map(|v| self.raster.prepared.positions[v as usize]);
+        Triangle::new(&self.raster.view, positions, self.raster.settings.correction)
+    }
+
+    /// Vertices with their weights at a sample, into `buffers.whole`.
+    fn weigh(&self, buffers: &mut Buffers, corners: &[u32], line: Option<&Line>, clipped: Option<&Clipped>, x: u32) {
         let Buffers { row, weights, whole, .. } = buffers;
-        if let (Some(triangle), &[a, b, c]) = (triangle, corners) {
-            let [u, v] = triangle.weights(self.raster.view.ray(x, y).x).map(f64::from);
+        if let (Some(line), &[a, b, c]) = (line, corners) {
+            let [u, v] = line.weights(self.raster.view.column(x)).map(f64::from);
             whole.clear();
             whole.extend([(a, 1.0 - u - v), (b, u), (c, v)]);
             return;
@@ -230,49 +297,8 @@ impl BandJob<'_> {
         }
     }
 
-    /// The common case, without detours: a triangle in Phong shading.
-    fn triangle_run(
-        &self,
-        buffers: &mut Buffers,
-        corners: [u32; 3],
-        surface: &Surface,
-        run: Run,
-        white: f32,
-        out: &mut Output,
-    ) {
-        let data = &self.raster.prepared;
-        let triangle = self.triangle(corners, run.y);
-        let [p0, p1, p2] = corners.map(|v| data.positions[v as usize].to_array());
-        let [n0, n1, n2] = corners.map(|v| data.normals[v as usize].to_array());
-        let [t0, t1, t2] = corners.map(|v| data.uvs[v as usize]);
-        let mut x = run.start;
-        while x < run.end {
-            let points = waiting(&mut buffers.waiting, surface.kind);
-            let count = (run.end - x).min((BLOCK - points.n) as u32);
-            for k in 0..count {
-                let [u, v] = triangle.weights(self.raster.view.ray(x + k, run.y).x);
-                let i = points.n + k as usize;
-                for c in 0..3 {
-                    points.p[c][i] = p0[c] + (p1[c] - p0[c]) * u + (p2[c] - p0[c]) * v;
-                    points.ns[c][i] = n0[c] + (n1[c] - n0[c]) * u + (n2[c] - n0[c]) * v;
-                    points.ng[c][i] = surface.normal[c];
-                    points.tangent[c][i] = surface.tangent[c];
-                }
-                for c in 0..2 {
-                    points.uv[c][i] = t0[c] + (t1[c] - t0[c]) * u + (t2[c] - t0[c]) * v;
-                }
-                points.target[i] = run.target + (x - run.start) + k;
-            }
-            points.n += count as usize;
-            x += count;
-            if points.n == BLOCK {
-                self.flush(buffers, surface.kind, white, out);
-            }
-        }
-    }
-
     /// Adds the point of `buffers.whole` to the block of its kind.
-    fn wait(&self, buffers: &mut Buffers, surface: &Surface, target: u32, white: f32, out: &mut Output) {
+    fn wait(&self, buffers: &mut Buffers, surface: &Surface, target: u32, out: &mut Output) {
         let data = &self.raster.prepared;
         let points = waiting(&mut buffers.waiting, surface.kind);
         let i = points.n;
@@ -289,71 +315,68 @@ impl BandJob<'_> {
         for c in 0..3 {
             points.p[c][i] = p[c] as f32;
             points.ns[c][i] = if self.raster.settings.shading == Mode::Flat { surface.normal[c] } else { n[c] as f32 };
-            points.ng[c][i] = surface.normal[c];
-            points.tangent[c][i] = surface.tangent[c];
         }
         (0..2).for_each(|c| points.uv[c][i] = uv[c] as f32);
-        points.target[i] = target;
-        points.n += 1;
+        surface.add(points, target);
         if points.n == BLOCK {
-            self.flush(buffers, surface.kind, white, out);
+            self.flush(buffers, surface.kind, out);
         }
     }
 
     /// Shades the waiting points of a kind.
-    fn flush(&self, buffers: &mut Buffers, kind: u32, white: f32, out: &mut Output) {
+    fn flush(&self, buffers: &mut Buffers, kind: u32, out: &mut Output) {
         let Buffers { waiting, work, .. } = buffers;
         let Some(points) = waiting[kind as usize].as_mut().filter(|p| p.n > 0) else { return };
         let surface: Kind = self.raster.kinds[kind as usize];
         self.shader.shade(surface, None, points, work);
-        let phong = self.raster.settings.shading == Mode::Phong;
-        for i in 0..points.n {
-            if phong {
+        if self.raster.settings.shading == Mode::Phong {
+            for i in 0..points.n {
                 let light = [0, 1, 2].map(|c| work.sum[c.min(CHANNELS - 1)][i]);
-                write(out, points.target[i], self.shader.show(light, white));
-            }
-            if let Some(slot) = out.hits.get_mut(points.target[i] as usize) {
-                let albedo = self.shader.albedo(surface, points, work, i);
-                let face = self.face_at(&buffers.band, points.target[i]);
-                let object = self.raster.prepared.objects[face as usize];
-                let aov = aov(points, i, albedo, self.raster.view.eye, object, surface.material);
-                *slot = Some(SampleHit { face, aov });
+                out.write(points.target[i], self.shader.show(light, out.white));
             }
         }
+        for i in 0..if out.hits.is_empty() { 0 } else { points.n } {
+            let albedo = self.shader.albedo(surface, points, work, i);
+            let face = points.face[i];
+            let object = self.raster.prepared.objects[face as usize];
+            let aov = aov(points, i, albedo, self.raster.view.eye, object, surface.material);
+            out.hits[points.target[i] as usize] = Some(SampleHit { face, aov });
+        }
         points.n = 0;
-    }
-
-    /// The face that a sample of the band shows.
-    fn face_at(&self, band: &Band, target: u32) -> u32 {
-        let faces = self.raster.prepared.face_count() as u32;
-        let id = band.ids[target as usize] - 1;
-        if id >= faces { self.clipped(id - faces).face } else { id }
     }
 }
 
 /// What all points of a face share.
 struct Surface {
+    face: u32,
     kind: u32,
     normal: [f32; 3],
     tangent: [f32; 3],
 }
 
 impl Surface {
-    fn new(job: &BandJob, face: usize) -> Surface {
+    fn new(job: &BandJob, face: u32) -> Surface {
         let data = &job.raster.prepared;
-        let kind = job.raster.kind_of[data.objects[face] as usize];
-        let [_, anisotropic] = job.shader.needs(job.raster.kinds[kind as usize]);
-        let tangent = if anisotropic { data.tangent(face) } else { Vec3::ZERO };
-        Surface { kind, normal: data.face_normal(face).map(|x| x as f32).to_array(), tangent: tangent.to_array() }
+        let kind = job.raster.kind_of[data.objects[face as usize] as usize];
+        let tangent = if job.anisotropic[kind as usize] { data.tangent(face as usize) } else { Vec3::ZERO };
+        let normal = data.face_normal(face as usize).map(|x| x as f32).to_array();
+        Surface { face, kind, normal, tangent: tangent.to_array() }
+    }
+
+    /// Fills what a point has from its face, and counts it.
+    #[inline(always)]
+    fn add(&self, points: &mut Points, target: u32) {
+        let i = points.n;
+        for c in 0..3 {
+            points.ng[c][i] = self.normal[c];
+            points.tangent[c][i] = self.tangent[c];
+        }
+        points.target[i] = target;
+        points.face[i] = self.face;
+        points.n = i + 1;
     }
 }
 
 fn waiting(all: &mut [Option<Box<Points>>], kind: u32) -> &mut Points {
     all[kind as usize].get_or_insert_with(Points::new)
-}
-
-#[inline]
-fn write(out: &mut Output, target: u32, light: [f32; 3]) {
-    let at = 3 * target as usize;
-    out.rgb[at..at + 3].copy_from_slice(&light);
 }

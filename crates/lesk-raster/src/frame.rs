@@ -195,17 +195,21 @@ impl Raster {
         if !keeps_hits {
             hit_bands.resize_with(frame.rgb.len().div_ceil(row), || &mut []);
         }
-        let job = BandJob { raster: self, shader, chunks };
+        let anisotropic = self.kinds.iter().map(|&kind| shader.needs(kind)[1]).collect();
+        let job = BandJob { raster: self, shader, chunks, anisotropic };
         frame
             .rgb
             .par_chunks_mut(row)
             .zip(hit_bands)
             .enumerate()
-            .map_init(Buffers::new, |buffers, (band, (rgb, hits))| {
-                let first = band as u32 * BAND;
-                let rows = first..(first + BAND).min(self.view.height);
-                job.run(buffers, band, rows, rgb, hits)
-            })
+            .map_init(
+                || Buffers::new(shader.isa),
+                |buffers, (band, (rgb, hits))| {
+                    let first = band as u32 * BAND;
+                    let rows = first..(first + BAND).min(self.view.height);
+                    job.run(buffers, band, rows, rgb, hits)
+                },
+            )
             .sum()
     }
 

@@ -5,16 +5,21 @@
 //! interpolated, and divided.
 
 use crate::clip::Clipped;
-use crate::prepare::Prepared;
 use crate::scan::{Crossing, cross, gamma};
 use crate::settings::Correction;
 use crate::view::{Screen, View};
 use lesk_math::Vec3;
 
-/// Barycentric weights along a row of a triangle: linear functions of the ray, divided by their sum.
+/// Barycentric weights in a triangle: linear functions of the ray, divided by their sum.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Triangle {
-    /// Weight k is `slope[k] * ray.x + start[k]`, before the division.
+    /// Weight k is `sides[k] * ray`, before the division.
+    sides: [Vec3<f64>; 3],
+}
+
+/// The weights along a row.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Line {
     slope: [f64; 3],
     start: [f64; 3],
 }
@@ -23,21 +28,27 @@ impl Triangle {
     /// From the vertices themselves, not from their places on the grid: the ray of a sample meets the plane of the
     /// triangle at P_0 b_0 + P_1 b_1 + P_2 b_2 with b_k proportional to ray · (P_k+1 × P_k+2) (Olano & Greer, *Triangle
     /// Scan Conversion using 2D Homogeneous Coordinates*, Graphics Hardware 1997).
-    pub fn new(view: &View, corners: [Vec3<f32>; 3], y: u32, correction: Correction) -> Triangle {
-        let p = corners.map(|c| view.relative(c));
-        let ray = view.ray(0, y);
+    #[inline]
+    pub fn new(view: &View, corners: [Vec3<f32>; 3], correction: Correction) -> Triangle {
+        let p = [view.relative(corners[0]), view.relative(corners[1]), view.relative(corners[2])];
         let sides = [p[1].cross(p[2]), p[2].cross(p[0]), p[0].cross(p[1])];
         let sign = if p[0].dot(sides[0]) < 0.0 { -1.0 } else { 1.0 };
-        let scale = |k: usize| match correction {
-            Correction::Perspective => sign,
-            Correction::Screen => -p[k].z * sign,
+        let scale = match correction {
+            Correction::Perspective => [sign; 3],
+            Correction::Screen => [-p[0].z * sign, -p[1].z * sign, -p[2].z * sign],
         };
-        Triangle {
-            slope: [0, 1, 2].map(|k| sides[k].x * scale(k)),
-            start: [0, 1, 2].map(|k| (sides[k].y * ray.y - sides[k].z) * scale(k)),
-        }
+        Triangle { sides: [sides[0] * scale[0], sides[1] * scale[1], sides[2] * scale[2]] }
     }
 
+    /// The weights in a row whose rays have the given y.
+    #[inline]
+    pub fn row(&self, y: f64) -> Line {
+        let [a, b, c] = self.sides;
+        Line { slope: [a.x, b.x, c.x], start: [a.y * y - a.z, b.y * y - b.z, c.y * y - c.z] }
+    }
+}
+
+impl Line {
     /// Weights of the second and third corner at the ray with the given x; clamped to the triangle, which the grid may
     /// leave by half a step.
     #[inline]
@@ -60,9 +71,9 @@ pub(crate) struct Row {
 
 impl Row {
     /// A whole face.
-    pub fn face(&mut self, prepared: &Prepared, screen: &[Screen], face: usize, y: u32) {
+    pub fn face(&mut self, corners: &[u32], screen: &[Screen], y: u32) {
         self.corners.clear();
-        self.corners.extend(prepared.face(face).iter().map(|&v| screen[v as usize]));
+        self.corners.extend(corners.iter().map(|&v| screen[v as usize]));
         cross(&self.corners, y, &mut self.crossings);
     }
 

@@ -20,12 +20,15 @@ pub(crate) struct Points {
     pub uv: [Row; 2],
     /// Where the result goes.
     pub target: [u32; BLOCK],
+    /// The face of each point.
+    pub face: [u32; BLOCK],
 }
 
 impl Points {
     pub fn new() -> Box<Points> {
         let zero = [[0.0; BLOCK]; 3];
-        Box::new(Points { n: 0, p: zero, ns: zero, ng: zero, tangent: zero, uv: [[0.0; BLOCK]; 2], target: [0; BLOCK] })
+        let (uv, none) = ([[0.0; BLOCK]; 2], [0; BLOCK]);
+        Box::new(Points { n: 0, p: zero, ns: zero, ng: zero, tangent: zero, uv, target: none, face: none })
     }
 }
 
@@ -100,55 +103,67 @@ fn dot(a: &Rows3, b: &Rows3, i: usize) -> f32 {
     a[0][i] * b[0][i] + a[1][i] * b[1][i] + a[2][i] * b[2][i]
 }
 
+#[inline(always)]
+fn vector(rows: &Rows3, i: usize) -> [f32; 3] {
+    [rows[0][i], rows[1][i], rows[2][i]]
+}
+
+#[inline(always)]
+fn product(a: [f32; 3], b: [f32; 3]) -> f32 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+#[inline(always)]
+fn scaled(a: [f32; 3], s: f32) -> [f32; 3] {
+    [a[0] * s, a[1] * s, a[2] * s]
+}
+
+#[inline(always)]
+fn choose(first: bool, a: [f32; 3], b: [f32; 3]) -> [f32; 3] {
+    [if first { a[0] } else { b[0] }, if first { a[1] } else { b[1] }, if first { a[2] } else { b[2] }]
+}
+
 /// Directions to the viewer, normals on its side, and frames around them; the same decisions as the path tracer makes.
 #[inline(always)]
 fn orient_body(points: &mut Points, work: &mut Work, eye: [f32; 3], sides: Sides) {
     let n = points.n.min(BLOCK);
     for i in 0..n {
+        // values, not places: a choice between two places would keep the loop from being vectorised
         let d = [eye[0] - points.p[0][i], eye[1] - points.p[1][i], eye[2] - points.p[2][i]];
-        let inverse = 1.0 / (d[0] * d[0] + d[1] * d[1] + d[2] * d[2]).sqrt();
-        for c in 0..3 {
-            work.wo[c][i] = d[c] * inverse;
-        }
-        let length = dot(&points.ns, &points.ns, i).sqrt();
+        let inverse = 1.0 / product(d, d).sqrt();
+        let wo = scaled(d, inverse);
+        let (given, face) = (vector(&points.ns, i), vector(&points.ng, i));
+        let length = product(given, given).sqrt();
         let usable = length > 1e-12;
-        let scale = if usable { 1.0 / length } else { 1.0 };
         work.length[i] = if sides.renormalize | !usable { 1.0 } else { length.min(1.0) };
-        for c in 0..3 {
-            points.ns[c][i] = if usable { points.ns[c][i] * scale } else { points.ng[c][i] };
-        }
+        let ns = choose(usable, scaled(given, 1.0 / if usable { length } else { 1.0 }), face);
         // normals that a coarse mesh bends beyond the horizon are no use
-        let bent = (dot(&points.ns, &points.ng, i) <= 1e-4) & !sides.classic;
-        for c in 0..3 {
-            points.ns[c][i] = if bent { points.ng[c][i] } else { points.ns[c][i] };
-        }
+        let bent = (product(ns, face) <= 1e-4) & !sides.classic;
+        let ns = choose(bent, face, ns);
         let behind = match sides.back {
             Some(back) => back,
-            None => dot(&points.ng, &work.wo, i) < 0.0,
+            None => product(face, wo) < 0.0,
         };
         let turned = behind & !sides.transmits & sides.two_sided;
         work.alive[i] = if behind & !sides.transmits & !sides.two_sided { 0.0 } else { 1.0 };
         let sign = if turned { -1.0 } else { 1.0 };
-        for c in 0..3 {
-            points.ng[c][i] *= sign;
-            points.ns[c][i] *= sign;
-        }
+        let (mut ng, mut ns) = (scaled(face, sign), scaled(ns, sign));
         if sides.back.is_some() {
             // the face decides for all of its corners; light from behind must not reach them by a turned normal
             let side = if behind & !turned { -1.0 } else { 1.0 };
-            let cosine = dot(&points.ns, &work.wo, i);
+            let cosine = product(ns, wo);
             let missing = if sides.classic { 0.0 } else { (side * GRAZING - cosine) * side };
             let add = if missing > 0.0 { missing * side } else { 0.0 };
-            let n = [0, 1, 2].map(|c| points.ns[c][i] + work.wo[c][i] * add);
-            let scale = 1.0 / (n[0] * n[0] + n[1] * n[1] + n[2] * n[2]).sqrt();
-            for c in 0..3 {
-                points.ns[c][i] = n[c] * scale;
-                points.ng[c][i] = n[c] * scale;
-            }
+            let n = [ns[0] + wo[0] * add, ns[1] + wo[1] * add, ns[2] + wo[2] * add];
+            ns = scaled(n, 1.0 / product(n, n).sqrt());
+            ng = ns;
         }
-        let agree = (dot(&points.ns, &work.wo, i) > 0.0) == (dot(&points.ng, &work.wo, i) > 0.0);
+        let agree = (product(ns, wo) > 0.0) == (product(ng, wo) > 0.0);
+        let ns = choose(agree | sides.classic, ns, ng);
         for c in 0..3 {
-            points.ns[c][i] = if agree | sides.classic { points.ns[c][i] } else { points.ng[c][i] };
+            work.wo[c][i] = wo[c];
+            points.ns[c][i] = ns[c];
+            points.ng[c][i] = ng[c];
         }
     }
     for i in 0..n {

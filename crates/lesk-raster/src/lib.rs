@@ -41,9 +41,12 @@ mod inside;
 mod lanes;
 mod lights;
 mod prepare;
+mod samples;
 mod scan;
 mod settings;
 mod shade;
+#[cfg(target_arch = "x86_64")]
+mod small;
 mod view;
 
 pub use classic::{Classic, ClassicLight, Highlight};

@@ -5,6 +5,7 @@
 //! overlap nor leave a gap.
 
 use crate::view::{STEPS, Screen};
+use lesk_math::Isa;
 
 /// Columns or rows whose centres lie in `[low, high)`, steps; clipped to 0..`count`.
 #[inline]
@@ -17,7 +18,7 @@ pub(crate) fn centres(low: i32, high: i32, count: u32) -> std::ops::Range<u32> {
 
 /// The centre of a column or row, steps.
 #[inline]
-fn centre(k: u32) -> i32 {
+pub(crate) fn centre(k: u32) -> i32 {
     k as i32 * STEPS + STEPS / 2
 }
 
@@ -45,24 +46,31 @@ impl Side {
     fn column(&self, y: f64) -> f64 {
         const HALF: f64 = STEPS as f64 / 2.0;
         let numerator = (self.x - HALF) * self.dy + (y - self.y) * self.dx;
-        (numerator / (self.dy * STEPS as f64)).ceil()
+        ceil(numerator / (self.dy * STEPS as f64))
     }
 }
 
+/// The least whole number that is not below `v`, |v| < 2^31: without SSE4.1 the library function is a call.
+#[inline]
+fn ceil(v: f64) -> f64 {
+    let whole = f64::from(v as i32);
+    if whole < v { whole + 1.0 } else { whole }
+}
+
 /// Depth over a triangle: 1/w at a column and row.
-struct Plane {
+pub(crate) struct Plane {
     z: f32,
-    x: f32,
+    pub x: f32,
     y: f32,
-    per_x: f32,
+    pub per_x: f32,
     per_y: f32,
-    low: f32,
-    high: f32,
+    pub low: f32,
+    pub high: f32,
 }
 
 impl Plane {
     #[inline]
-    fn new([a, b, c]: [Screen; 3]) -> Plane {
+    pub fn new([a, b, c]: [Screen; 3]) -> Plane {
         let d = |p: i32, q: i32| f64::from(p - q);
         let area = d(b.x, a.x) * d(c.y, a.y) - d(c.x, a.x) * d(b.y, a.y);
         let (zb, zc) = (f64::from(b.inverse_w - a.inverse_w), f64::from(c.inverse_w - a.inverse_w));
@@ -79,11 +87,24 @@ impl Plane {
             high,
         }
     }
+
+    /// The depth of a row, at column `x`.
+    #[inline]
+    pub fn row(&self, y: u32) -> f32 {
+        self.z + self.per_y * (centre(y) as f32 - self.y)
+    }
 }
+
+/// Memory behind each row that lanes may touch but never change.
+const SPARE: usize = 8;
 
 /// Depth and face number of a band of rows. Depth is 1/w; 0 is infinitely far. Face numbers begin at 1.
 pub(crate) struct Band {
     pub width: u32,
+    /// From one row to the next.
+    stride: usize,
+    /// Whether the lanes of [`crate::small`] may run.
+    lanes: bool,
     /// First row and the one after the last.
     pub rows: std::ops::Range<u32>,
     pub depth: Vec<f32>,
@@ -91,31 +112,48 @@ pub(crate) struct Band {
 }
 
 impl Band {
-    pub fn new() -> Band {
-        Band { width: 0, rows: 0..0, depth: Vec::new(), ids: Vec::new() }
+    pub fn new(isa: Isa) -> Band {
+        let lanes = cfg!(target_arch = "x86_64") && isa != Isa::Baseline;
+        assert!(isa.is_available(), "this processor lacks {}", isa.name());
+        Band { width: 0, stride: 0, lanes, rows: 0..0, depth: Vec::new(), ids: Vec::new() }
     }
 
     pub fn start(&mut self, width: u32, rows: std::ops::Range<u32>) {
-        let count = width as usize * rows.len();
-        (self.width, self.rows) = (width, rows);
+        let stride = width as usize + SPARE;
+        let count = stride * rows.len();
+        (self.width, self.stride, self.rows) = (width, stride, rows);
         self.depth.clear();
         self.depth.resize(count, 0.0);
         self.ids.clear();
         self.ids.resize(count, 0);
     }
 
+    #[inline]
     pub fn row(&self, y: u32) -> std::ops::Range<usize> {
-        let start = (y - self.rows.start) as usize * self.width as usize;
+        let start = (y - self.rows.start) as usize * self.stride;
         start..start + self.width as usize
     }
 
     /// The rows of the band that a face between two heights may cover.
-    fn covered(&self, low: i32, high: i32) -> std::ops::Range<u32> {
+    #[inline]
+    pub fn covered(&self, low: i32, high: i32) -> std::ops::Range<u32> {
         let all = centres(low, high, self.rows.end);
         all.start.max(self.rows.start)..all.end
     }
 
-    pub fn triangle(&mut self, id: u32, [a, b, c]: [Screen; 3]) {
+    /// A triangle, by lanes where it is small.
+    #[inline]
+    pub fn triangle(&mut self, id: u32, corners: [Screen; 3]) {
+        #[cfg(target_arch = "x86_64")]
+        if self.lanes && crate::small::is_small(&corners) {
+            // SAFETY: `new` set `lanes` only where the processor has AVX2
+            unsafe { crate::small::triangle(self, id, corners) };
+            return;
+        }
+        self.triangle_by_spans(id, corners);
+    }
+
+    fn triangle_by_spans(&mut self, id: u32, [a, b, c]: [Screen; 3]) {
         let order = |p: Screen, q: Screen| if p.y <= q.y { (p, q) } else { (q, p) };
         let (top, low) = order(a, b);
         let (middle, bottom) = order(low, c);
@@ -149,7 +187,7 @@ impl Band {
     #[inline]
     fn triangle_span(&mut self, id: u32, plane: &Plane, y: u32, columns: std::ops::Range<usize>) {
         let row = self.row(y);
-        let base = plane.z + plane.per_y * (centre(y) as f32 - plane.y);
+        let base = plane.row(y);
         let (depth, ids) = (&mut self.depth[row.clone()][columns.clone()], &mut self.ids[row][columns.clone()]);
         let first = centre(columns.start as u32) as f32 - plane.x;
         for (k, (depth, own)) in depth.iter_mut().zip(ids).enumerate() {
@@ -249,17 +287,41 @@ mod tests {
         Screen { x: (x * 256.0) as i32, y: (y * 256.0) as i32, inverse_w }
     }
 
+    /// The ways to draw a triangle.
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    enum Way {
+        Usual,
+        Spans,
+        Polygons,
+    }
+    const WAYS: [Way; 3] = [Way::Usual, Way::Spans, Way::Polygons];
+
+    fn draw(band: &mut Band, id: u32, face: &[Screen], way: Way) {
+        match (face, way) {
+            (&[a, b, c], Way::Usual) => band.triangle(id, [a, b, c]),
+            (&[a, b, c], Way::Spans) => band.triangle_by_spans(id, [a, b, c]),
+            _ => band.polygon(id, face, &mut Vec::new()),
+        }
+    }
+
+    /// The numbers of a band, row by row.
+    fn ids(band: &Band) -> Vec<u32> {
+        band.rows.clone().flat_map(|y| band.ids[band.row(y)].to_vec()).collect()
+    }
+
     /// How often each sample is covered by the faces, drawn one by one.
-    fn cover(faces: &[Vec<Screen>], polygons: bool) -> Vec<u32> {
+    fn cover(faces: &[Vec<Screen>], way: Way) -> Vec<u32> {
         let mut count = vec![0; (SIDE * SIDE) as usize];
-        let (mut band, mut crossings) = (Band::new(), Vec::new());
+        let mut band = Band::new(Isa::current());
         for face in faces {
-            band.start(SIDE, 0..SIDE);
-            match face[..] {
-                [a, b, c] if !polygons => band.triangle(1, [a, b, c]),
-                _ => band.polygon(1, face, &mut crossings),
+            // two bands: the second starts inside most faces
+            let mut all = Vec::new();
+            for rows in [0..5, 5..SIDE] {
+                band.start(SIDE, rows);
+                draw(&mut band, 1, face, way);
+                all.extend(ids(&band));
             }
-            band.ids.iter().zip(&mut count).for_each(|(id, n)| *n += id);
+            all.iter().zip(&mut count).for_each(|(id, n)| *n += id);
         }
         count
     }
@@ -292,8 +354,8 @@ mod tests {
             let face: Vec<Screen> =
                 points.iter().map(|&(x, y)| Screen { x: snap(x), y: snap(y), inverse_w: 1.0 }).collect();
             for faces in [vec![face.clone()], vec![face[..3].to_vec()]] {
-                for polygons in [true, false] {
-                    let count = cover(&faces, polygons);
+                for way in WAYS {
+                    let count = cover(&faces, way);
                     for (k, n) in count.iter().enumerate() {
                         let expected = inside(&faces[0], k as u32 % SIDE, k as u32 / SIDE);
                         prop_assert_eq!(*n == 1, expected, "{} {}", k as u32 % SIDE, k as u32 / SIDE);
@@ -324,10 +386,11 @@ mod tests {
                 }
             }
             let whole = vec![knot(0, 0), knot(6, 0), knot(6, 6), knot(0, 6)];
-            let count = cover(&faces, false);
-            for (k, n) in count.iter().enumerate() {
-                let expected = u32::from(inside(&whole, k as u32 % SIDE, k as u32 / SIDE));
-                prop_assert_eq!(*n, expected, "sample {} {}", k as u32 % SIDE, k as u32 / SIDE);
+            for way in WAYS {
+                for (k, n) in cover(&faces, way).iter().enumerate() {
+                    let expected = u32::from(inside(&whole, k as u32 % SIDE, k as u32 / SIDE));
+                    prop_assert_eq!(*n, expected, "{:?}, sample {} {}", way, k as u32 % SIDE, k as u32 / SIDE);
+                }
             }
         }
     }
@@ -373,12 +436,36 @@ mod tests {
     fn the_nearer_face_shows_in_either_order() {
         let face = |z| [at(1.0, 1.0, z), at(20.0, 1.0, z), at(1.0, 20.0, z)];
         for (first, second) in [(0.5, 1.0), (1.0, 0.5)] {
-            let mut band = Band::new();
-            band.start(SIDE, 0..SIDE);
-            band.triangle(1, face(first));
-            band.triangle(2, face(second));
-            let expected = if first > second { 1 } else { 2 };
-            assert_eq!(band.ids[(5 * SIDE + 5) as usize], expected);
+            for way in WAYS {
+                let mut band = Band::new(Isa::current());
+                band.start(SIDE, 0..SIDE);
+                draw(&mut band, 1, &face(first), way);
+                draw(&mut band, 2, &face(second), way);
+                let expected = if first > second { 1 } else { 2 };
+                assert_eq!(ids(&band)[(5 * SIDE + 5) as usize], expected);
+            }
+        }
+    }
+
+    proptest! {
+        #[test]
+        fn lanes_and_spans_give_the_same_depths(
+            points in prop::collection::vec((-800i32..7000, -800i32..7000, 0.1f32..10.0), 3..60),
+        ) {
+            let faces: Vec<Vec<Screen>> = points
+                .as_chunks::<3>()
+                .0
+                .iter()
+                .map(|face| face.map(|(x, y, inverse_w)| Screen { x, y, inverse_w }).to_vec())
+                .collect();
+            let bits = |way| {
+                let mut band = Band::new(Isa::current());
+                band.start(SIDE, 0..SIDE);
+                faces.iter().enumerate().for_each(|(k, face)| draw(&mut band, 1 + k as u32, face, way));
+                let depths: Vec<u32> = band.rows.clone().flat_map(|y| band.depth[band.row(y)].to_vec()).map(f32::to_bits).collect();
+                (ids(&band), depths)
+            };
+            prop_assert!(bits(Way::Usual) == bits(Way::Spans));
         }
     }
 }

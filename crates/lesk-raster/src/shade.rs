@@ -25,7 +25,7 @@ pub(crate) struct Shader<'a> {
     classic: Option<&'a Classic>,
     sources: Vec<Source>,
     lanes: Lanes,
-    isa: Isa,
+    pub isa: Isa,
     eye: Vec3<f32>,
     renormalize: bool,
     space: Space,

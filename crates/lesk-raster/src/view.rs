@@ -122,15 +122,21 @@ impl View {
         vec3(self.axes[0].dot(d), self.axes[1].dot(d), self.axes[2].dot(d))
     }
 
-    /// The ray through a sample in the axes of the camera, at distance 1 along the view.
+    /// x of the rays through a column of samples, in the axes of the camera, at distance 1 along the view.
     #[inline]
-    pub fn ray(&self, x: u32, y: u32) -> Vec3<f64> {
-        vec3(self.columns[x as usize], self.lines[y as usize], -1.0)
+    pub fn column(&self, x: u32) -> f64 {
+        self.columns[x as usize]
     }
 
-    /// The ray in world space, unit.
+    /// y of the rays through a row of samples.
+    #[inline]
+    pub fn line(&self, y: u32) -> f64 {
+        self.lines[y as usize]
+    }
+
+    /// The ray through a sample in world space, unit.
     pub fn world_ray(&self, x: u32, y: u32) -> Vec3<f32> {
-        let d = self.ray(x, y);
+        let d = vec3(self.column(x), self.line(y), -1.0);
         let world = self.axes[0] * d.x + self.axes[1] * d.y + self.axes[2] * d.z;
         world.normalize().map(|v| v as f32)
     }

@@ -1,0 +1,107 @@
+//! The samples of a band by face, so that what a face needs is computed once and its vertices are read together.
+
+use crate::scan::Band;
+
+/// A sample of a band: row within the band and column.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) struct Spot(u32);
+
+impl Spot {
+    /// Columns stay below 15,000 and rows of a band below 2^16.
+    #[inline]
+    fn new(row: u32, column: u32) -> Spot {
+        Spot(row << 16 | column)
+    }
+
+    #[inline]
+    pub fn row(self) -> u32 {
+        self.0 >> 16
+    }
+
+    #[inline]
+    pub fn column(self) -> u32 {
+        self.0 & 0xffff
+    }
+}
+
+/// Sorted samples.
+#[derive(Default)]
+pub(crate) struct Samples {
+    /// The samples of the face with number `id` stand at `ends[id - 1]..ends[id]`.
+    ends: Vec<u32>,
+    spots: Vec<Spot>,
+}
+
+impl Samples {
+    /// Sorts the covered samples of a band by its face numbers 1 to `faces`; those of a face go row by row.
+    pub fn sort(&mut self, band: &Band, faces: usize) {
+        self.ends.clear();
+        self.ends.resize(faces + 1, 0);
+        each(band, |id, _| self.ends[id as usize] += 1);
+        let mut sum = 0;
+        for end in &mut self.ends {
+            // the first sample of each face, until all are placed
+            sum += std::mem::replace(end, sum);
+        }
+        self.spots.clear();
+        self.spots.resize(sum as usize, Spot::default());
+        each(band, |id, spot| {
+            let at = &mut self.ends[id as usize];
+            self.spots[*at as usize] = spot;
+            *at += 1;
+        });
+    }
+
+    /// How many samples are covered.
+    pub fn len(&self) -> usize {
+        self.spots.len()
+    }
+
+    /// The samples of a face.
+    #[inline]
+    pub fn of(&self, id: u32) -> &[Spot] {
+        &self.spots[self.ends[id as usize - 1] as usize..self.ends[id as usize] as usize]
+    }
+}
+
+/// All covered samples with their face numbers.
+#[inline(always)]
+fn each(band: &Band, mut f: impl FnMut(u32, Spot)) {
+    for y in band.rows.clone() {
+        let row = y - band.rows.start;
+        for (k, ids) in band.ids[band.row(y)].chunks(16).enumerate() {
+            // most of a picture may be empty
+            if ids.iter().fold(0, |any, id| any | id) == 0 {
+                continue;
+            }
+            for (column, &id) in ids.iter().enumerate().filter(|(_, id)| **id != 0) {
+                f(id, Spot::new(row, (16 * k + column) as u32));
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use lesk_math::Isa;
+
+    #[test]
+    fn each_face_has_its_samples_row_by_row() {
+        let mut band = Band::new(Isa::current());
+        band.start(40, 7..10);
+        let shown = [(7, 3, 2), (7, 4, 1), (8, 39, 2), (9, 0, 1), (9, 17, 4)];
+        for (y, x, id) in shown {
+            let start = band.row(y).start;
+            band.ids[start + x] = id;
+        }
+        let mut samples = Samples::default();
+        samples.sort(&band, 4);
+        let of = |id| samples.of(id).iter().map(|s| (s.row(), s.column())).collect::<Vec<_>>();
+        assert_eq!(of(1), [(0, 4), (2, 0)]);
+        assert_eq!(of(2), [(0, 3), (1, 39)]);
+        assert_eq!(of(3), []);
+        assert_eq!(of(4), [(2, 17)]);
+        assert_eq!(samples.len(), 5);
+    }
+}
