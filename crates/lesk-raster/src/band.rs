@@ -4,6 +4,7 @@ use crate::clip::Clipped;
 use crate::frame::{CLIPPED, Chunk, Raster, SampleHit, aov, corner_light};
 use crate::inside::{Line, Row, Triangle, Weighted, unclip};
 use crate::lanes::{Points, Work};
+use crate::lights::at;
 use crate::samples::{Samples, Spot};
 use crate::scan::{Band, Crossing};
 use crate::settings::Mode;
@@ -183,7 +184,9 @@ impl BandJob<'_> {
         let corners = raster.prepared.face(face as usize);
         let surface = Surface::new(self, face);
         match (corners, clipped, mode) {
-            (&[a, b, c], None, Mode::Phong) => self.shade_triangle(buffers, [a, b, c], &surface, spots, out),
+            (&[a, b, c], None, Mode::Phong) if !self.shader.raises() => {
+                self.shade_triangle(buffers, [a, b, c], &surface, spots, out)
+            }
             _ => self.shade_polygon(buffers, corners, clipped, &surface, spots, out),
         }
     }
@@ -297,6 +300,22 @@ impl BandJob<'_> {
         }
     }
 
+    /// Where rays of light start from a point of a face.
+    fn raise(&self, points: &mut Points, i: usize, weighted: &Weighted) {
+        let data = &self.raster.prepared;
+        let p = at(&points.p, i);
+        let side = if at(&points.ng, i).dot(self.raster.view.eye - p) < 0.0 { -1.0 } else { 1.0 };
+        let corner = |&(v, w): &(u32, f64)| {
+            let v = v as usize;
+            (w, data.positions[v].map(f64::from), data.normals[v].map(f64::from) * side)
+        };
+        let start = match self.raster.settings.shading {
+            Mode::Flat => p,
+            _ => lesk_geometry::raised(p.map(f64::from), weighted.iter().map(corner)).map(|x| x as f32),
+        };
+        (0..3).for_each(|c| points.origin[c][i] = start.to_array()[c]);
+    }
+
     /// Adds the point of `buffers.whole` to the block of its kind.
     fn wait(&self, buffers: &mut Buffers, surface: &Surface, target: u32, out: &mut Output) {
         let data = &self.raster.prepared;
@@ -318,6 +337,9 @@ impl BandJob<'_> {
         }
         (0..2).for_each(|c| points.uv[c][i] = uv[c] as f32);
         surface.add(points, target);
+        if self.shader.raises() {
+            self.raise(points, i, &buffers.whole);
+        }
         if points.n == BLOCK {
             self.flush(buffers, surface.kind, out);
         }

@@ -40,7 +40,7 @@ pub struct Count {
     pub vertices: u64,
     /// Samples that a face covers.
     pub samples: u64,
-    /// Points at which light was computed: faces, vertices or samples.
+    /// Points at which light was computed: faces, vertices or samples; vertices once for each side that their faces show.
     pub evaluations: u64,
     /// Wall-clock time of the frame, without preparing the scene.
     pub elapsed: Duration,
@@ -357,6 +357,7 @@ impl Raster {
         let i = points.n;
         for c in 0..3 {
             points.p[c][i] = p.to_array()[c];
+            points.origin[c][i] = p.to_array()[c];
             points.ns[c][i] = n.to_array()[c];
             points.ng[c][i] = n.to_array()[c];
             points.tangent[c][i] = tangent.to_array()[c];
