@@ -1,10 +1,10 @@
 //! One band of rows: which face each sample shows, then its light.
 
 use crate::clip::Clipped;
-use crate::frame::{CLIPPED, Chunk, Raster, SampleHit, aov, corner_light};
+use crate::frame::{Chunk, Placed, Raster, SampleHit, aov, corner_light};
 use crate::inside::{Line, Row, Triangle, Weighted, unclip};
 use crate::lanes::{Points, Work};
-use crate::lights::at;
+use crate::prepare::triangle_normal;
 use crate::samples::{Samples, Spot};
 use crate::scan::{Band, Crossing};
 use crate::settings::Mode;
@@ -16,8 +16,6 @@ use std::ops::Range;
 /// What a thread keeps from band to band.
 pub(crate) struct Buffers {
     band: Band,
-    /// Faces of the band, in the order of their numbers there, which begin at 1; clipped ones come after the others.
-    faces: Vec<u32>,
     samples: Samples,
     crossings: Vec<Crossing>,
     corners: Vec<crate::view::Screen>,
@@ -33,7 +31,6 @@ impl Buffers {
     pub fn new(isa: Isa) -> Buffers {
         Buffers {
             band: Band::new(isa),
-            faces: Vec::new(),
             samples: Samples::default(),
             crossings: Vec::new(),
             corners: Vec::new(),
@@ -51,8 +48,8 @@ pub(crate) struct BandJob<'a> {
     pub raster: &'a Raster,
     pub shader: &'a Shader<'a>,
     pub chunks: &'a [Chunk],
-    /// Of each kind, whether tangents matter.
-    pub anisotropic: Vec<bool>,
+    /// Of each kind, whether texture coordinates and whether tangents matter.
+    pub needs: Vec<[bool; 2]>,
 }
 
 /// Where a band goes.
@@ -92,15 +89,19 @@ impl BandJob<'_> {
         let width = self.raster.view.width;
         buffers.waiting.resize_with(self.raster.kinds.len(), || None);
         buffers.band.start(width, rows.clone());
-        self.cover(buffers, band);
+        let faces = self.cover(buffers, band);
         let mut out = Output { rgb, hits, first_row: rows.start, width, white: self.white() };
         self.clear(&buffers.band, &mut out);
         let mut samples = std::mem::take(&mut buffers.samples);
-        samples.sort(&buffers.band, buffers.faces.len());
-        for number in 0..buffers.faces.len() {
-            let spots = samples.of(1 + number as u32);
-            if !spots.is_empty() {
-                self.shade_face(buffers, buffers.faces[number], spots, &mut out);
+        samples.sort(&buffers.band, faces as usize);
+        let mut id = 0;
+        for chunk in self.chunks {
+            for placed in &chunk.bins[band] {
+                id += 1;
+                let spots = samples.of(id);
+                if !spots.is_empty() {
+                    self.shade_face(buffers, chunk, placed, spots, &mut out);
+                }
             }
         }
         for kind in 0..self.raster.kinds.len() {
@@ -134,60 +135,46 @@ impl BandJob<'_> {
         lesk_quantities::exposure::saturation_luminance(ev100) as f32
     }
 
-    /// Decides which face each sample of the band shows.
-    fn cover(&self, buffers: &mut Buffers, number: usize) {
+    /// Decides which face each sample of the band shows: 1 for the first of the band, and so on. Returns how many there are.
+    fn cover(&self, buffers: &mut Buffers, number: usize) -> u32 {
         let raster = self.raster;
-        let count = raster.prepared.face_count() as u32;
-        let Buffers { band, faces, corners, crossings, .. } = buffers;
-        faces.clear();
+        let Buffers { band, corners, crossings, .. } = buffers;
+        let mut id = 0;
         for chunk in self.chunks {
-            for &entry in &chunk.bins[number] {
-                let id = 1 + faces.len() as u32;
-                if entry & CLIPPED != 0 {
-                    let number = entry & !CLIPPED;
-                    corners.clear();
-                    corners.extend(chunk.clipped[number as usize].corners.iter().map(|c| c.screen));
-                    band.polygon(id, corners, crossings);
-                    faces.push(count + chunk.offset + number);
+            for placed in &chunk.bins[number] {
+                id += 1;
+                if let Some((_, screen)) = placed.triangle {
+                    band.triangle(id, screen);
                     continue;
                 }
-                match raster.prepared.face(entry as usize) {
-                    &[a, b, c] => band.triangle(id, [a, b, c].map(|v| raster.screen[v as usize])),
-                    face => {
-                        corners.clear();
+                corners.clear();
+                match chunk.clipped(placed.entry) {
+                    Some(clipped) => corners.extend(clipped.corners.iter().map(|c| c.screen)),
+                    None => {
+                        let face = raster.prepared.face(placed.entry as usize);
                         corners.extend(face.iter().map(|&v| raster.screen[v as usize]));
-                        band.polygon(id, corners, crossings);
                     }
                 }
-                faces.push(entry);
+                band.polygon(id, corners, crossings);
             }
         }
-    }
-
-    fn clipped(&self, number: u32) -> &Clipped {
-        let chunk = self.chunks.partition_point(|c| c.offset <= number) - 1;
-        &self.chunks[chunk].clipped[(number - self.chunks[chunk].offset) as usize]
+        id
     }
 
     /// Light of the samples of a face: at once where it is known already, else when its block is full.
-    fn shade_face(&self, buffers: &mut Buffers, id: u32, spots: &[Spot], out: &mut Output) {
+    fn shade_face(&self, buffers: &mut Buffers, chunk: &Chunk, placed: &Placed, spots: &[Spot], out: &mut Output) {
         let raster = self.raster;
-        let faces = raster.prepared.face_count() as u32;
-        let clipped = (id >= faces).then(|| self.clipped(id - faces));
-        let face = clipped.map_or(id, |c| c.face);
+        let clipped = chunk.clipped(placed.entry);
+        let face = clipped.map_or(placed.entry, |c| c.face);
         let mode = raster.settings.shading;
         if mode == Mode::Flat && out.hits.is_empty() {
             let light = self.shader.show(raster.light[face as usize], out.white);
             spots.iter().for_each(|&spot| out.write(out.place(spot).1, light));
             return;
         }
-        let corners = raster.prepared.face(face as usize);
-        let surface = Surface::new(self, face);
-        match (corners, clipped, mode) {
-            (&[a, b, c], None, Mode::Phong) if !self.shader.raises() => {
-                self.shade_triangle(buffers, [a, b, c], &surface, spots, out)
-            }
-            _ => self.shade_polygon(buffers, corners, clipped, &surface, spots, out),
+        match placed.triangle {
+            Some((corners, _)) if mode == Mode::Phong => self.shade_triangle(buffers, face, corners, spots, out),
+            _ => self.shade_polygon(buffers, face, clipped, spots, out),
         }
     }
 
@@ -195,16 +182,19 @@ impl BandJob<'_> {
     fn shade_triangle(
         &self,
         buffers: &mut Buffers,
+        face: u32,
         corners: [u32; 3],
-        surface: &Surface,
         mut spots: &[Spot],
         out: &mut Output,
     ) {
         let (data, view) = (&self.raster.prepared, &self.raster.view);
-        let triangle = self.triangle(corners);
-        let [p0, p1, p2] = corners.map(|v| data.positions[v as usize].to_array());
-        let [n0, n1, n2] = corners.map(|v| data.normals[v as usize].to_array());
-        let [t0, t1, t2] = corners.map(|v| data.uvs[v as usize]);
+        let [a, b, c] = corners.map(|v| &data.vertices[v as usize]);
+        let surface = Surface::new(self, face, triangle_normal([a.p, b.p, c.p]));
+        let triangle = Triangle::new(view, [a.p, b.p, c.p], self.raster.settings.correction);
+        let [p0, p1, p2] = [a.p.to_array(), b.p.to_array(), c.p.to_array()];
+        let [n0, n1, n2] = [a.n.to_array(), b.n.to_array(), c.n.to_array()];
+        let [t0, t1, t2] = [a.uv, b.uv, c.uv];
+        let textured = self.needs[surface.kind as usize][0] || !out.hits.is_empty();
         while !spots.is_empty() {
             let points = waiting(&mut buffers.waiting, surface.kind);
             let (these, rest) = spots.split_at(spots.len().min(BLOCK - points.n));
@@ -212,11 +202,12 @@ impl BandJob<'_> {
                 let ([x, y], target) = out.place(spot);
                 let [u, v] = triangle.row(view.line(y)).weights(view.column(x));
                 let i = points.n;
+                assert!(i < BLOCK, "a full block is flushed");
                 for c in 0..3 {
                     points.p[c][i] = p0[c] + (p1[c] - p0[c]) * u + (p2[c] - p0[c]) * v;
                     points.ns[c][i] = n0[c] + (n1[c] - n0[c]) * u + (n2[c] - n0[c]) * v;
                 }
-                for c in 0..2 {
+                for c in 0..if textured { 2 } else { 0 } {
                     points.uv[c][i] = t0[c] + (t1[c] - t0[c]) * u + (t2[c] - t0[c]) * v;
                 }
                 surface.add(points, target);
@@ -232,14 +223,15 @@ impl BandJob<'_> {
     fn shade_polygon(
         &self,
         buffers: &mut Buffers,
-        corners: &[u32],
+        face: u32,
         clipped: Option<&Clipped>,
-        surface: &Surface,
         spots: &[Spot],
         out: &mut Output,
     ) {
         let raster = self.raster;
         let mode = raster.settings.shading;
+        let corners = raster.prepared.face(face as usize);
+        let surface = Surface::new(self, face, raster.prepared.face_normal(face as usize).map(|x| x as f32));
         let back = mode == Mode::Gouraud && raster.shows_back(corners, clipped);
         let triangle = match (corners, clipped) {
             (&[a, b, c], None) => Some(self.triangle([a, b, c])),
@@ -257,7 +249,7 @@ impl BandJob<'_> {
                 let ([x, _], target) = out.place(spot);
                 self.weigh(buffers, corners, line.as_ref(), clipped, x);
                 if mode == Mode::Phong || !out.hits.is_empty() {
-                    self.wait(buffers, surface, target, out);
+                    self.wait(buffers, &surface, target, out);
                 }
                 let light = match mode {
                     Mode::Phong => continue,
@@ -277,7 +269,7 @@ impl BandJob<'_> {
     }
 
     fn triangle(&self, corners: [u32; 3]) -> Triangle {
-        let positions = corners.map(|v| self.raster.prepared.positions[v as usize]);
+        let positions = corners.map(|v| self.raster.prepared.vertices[v as usize].p);
         Triangle::new(&self.raster.view, positions, self.raster.settings.correction)
     }
 
@@ -300,22 +292,6 @@ impl BandJob<'_> {
         }
     }
 
-    /// Where rays of light start from a point of a face.
-    fn raise(&self, points: &mut Points, i: usize, weighted: &Weighted) {
-        let data = &self.raster.prepared;
-        let p = at(&points.p, i);
-        let side = if at(&points.ng, i).dot(self.raster.view.eye - p) < 0.0 { -1.0 } else { 1.0 };
-        let corner = |&(v, w): &(u32, f64)| {
-            let v = v as usize;
-            (w, data.positions[v].map(f64::from), data.normals[v].map(f64::from) * side)
-        };
-        let start = match self.raster.settings.shading {
-            Mode::Flat => p,
-            _ => lesk_geometry::raised(p.map(f64::from), weighted.iter().map(corner)).map(|x| x as f32),
-        };
-        (0..3).for_each(|c| points.origin[c][i] = start.to_array()[c]);
-    }
-
     /// Adds the point of `buffers.whole` to the block of its kind.
     fn wait(&self, buffers: &mut Buffers, surface: &Surface, target: u32, out: &mut Output) {
         let data = &self.raster.prepared;
@@ -323,13 +299,13 @@ impl BandJob<'_> {
         let i = points.n;
         let (mut p, mut n, mut uv) = ([0.0f64; 3], [0.0f64; 3], [0.0f64; 2]);
         for &(v, w) in &buffers.whole {
-            let v = v as usize;
-            let (position, normal) = (data.positions[v].to_array(), data.normals[v].to_array());
+            let vertex = &data.vertices[v as usize];
+            let (position, normal) = (vertex.p.to_array(), vertex.n.to_array());
             for c in 0..3 {
                 p[c] += w * f64::from(position[c]);
                 n[c] += w * f64::from(normal[c]);
             }
-            (0..2).for_each(|c| uv[c] += w * f64::from(data.uvs[v][c]));
+            (0..2).for_each(|c| uv[c] += w * f64::from(vertex.uv[c]));
         }
         for c in 0..3 {
             points.p[c][i] = p[c] as f32;
@@ -337,9 +313,6 @@ impl BandJob<'_> {
         }
         (0..2).for_each(|c| points.uv[c][i] = uv[c] as f32);
         surface.add(points, target);
-        if self.shader.raises() {
-            self.raise(points, i, &buffers.whole);
-        }
         if points.n == BLOCK {
             self.flush(buffers, surface.kind, out);
         }
@@ -377,12 +350,11 @@ struct Surface {
 }
 
 impl Surface {
-    fn new(job: &BandJob, face: u32) -> Surface {
+    fn new(job: &BandJob, face: u32, normal: Vec3<f32>) -> Surface {
         let data = &job.raster.prepared;
         let kind = job.raster.kind_of[data.objects[face as usize] as usize];
-        let tangent = if job.anisotropic[kind as usize] { data.tangent(face as usize) } else { Vec3::ZERO };
-        let normal = data.face_normal(face as usize).map(|x| x as f32).to_array();
-        Surface { face, kind, normal, tangent: tangent.to_array() }
+        let tangent = if job.needs[kind as usize][1] { data.tangent(face as usize) } else { Vec3::ZERO };
+        Surface { face, kind, normal: normal.to_array(), tangent: tangent.to_array() }
     }
 
     /// Fills what a point has from its face, and counts it.

@@ -32,7 +32,7 @@ pub(crate) fn clip(prepared: &Prepared, view: &View, face: u32) -> Option<Clippe
         .iter()
         .enumerate()
         .map(|(k, &v)| Corner {
-            at: view.project(prepared.positions[v as usize]),
+            at: view.project(prepared.vertices[v as usize].p),
             weights: (0..whole.len()).map(|j| f64::from(u8::from(j == k))).collect(),
         })
         .collect();

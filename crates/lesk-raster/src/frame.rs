@@ -5,7 +5,7 @@ use crate::clip::{Clipped, clip};
 use crate::error::Result;
 use crate::lanes::{Points, Work};
 use crate::lights::at;
-use crate::prepare::Prepared;
+use crate::prepare::{Prepared, Vertex};
 use crate::scan::centres;
 use crate::settings::{FlatPoint, Mode, Settings};
 use crate::shade::{Kind, Shader};
@@ -27,7 +27,7 @@ const BAND: u32 = 32;
 const CHUNK: usize = 4096;
 
 /// Entries of a bin with this bit are numbers of clipped faces.
-pub(crate) const CLIPPED: u32 = 1 << 31;
+const CLIPPED: u32 = 1 << 31;
 
 /// How much was done.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -40,18 +40,33 @@ pub struct Count {
     pub vertices: u64,
     /// Samples that a face covers.
     pub samples: u64,
-    /// Points at which light was computed: faces, vertices or samples; vertices once for each side that their faces show.
+    /// Points at which light was computed: faces, vertices or samples.
     pub evaluations: u64,
     /// Wall-clock time of the frame, without preparing the scene.
     pub elapsed: Duration,
 }
 
+/// A face of a bin.
+#[derive(Clone, Copy)]
+pub(crate) struct Placed {
+    /// Its number, or [`CLIPPED`] with that of a clipped one.
+    pub entry: u32,
+    /// Vertices and places of a whole triangle, so that nobody has to look for them again.
+    pub triangle: Option<([u32; 3], [Screen; 3])>,
+}
+
 /// Chunks of faces, sorted into bands.
 pub(crate) struct Chunk {
-    pub bins: Vec<Vec<u32>>,
-    pub clipped: Vec<Clipped>,
-    /// Clipped faces of all chunks before.
-    pub offset: u32,
+    pub bins: Vec<Vec<Placed>>,
+    clipped: Vec<Clipped>,
+}
+
+impl Chunk {
+    /// What is left of the face of an entry, if it was cut.
+    #[inline]
+    pub fn clipped(&self, entry: u32) -> Option<&Clipped> {
+        (entry & CLIPPED != 0).then(|| &self.clipped[(entry & !CLIPPED) as usize])
+    }
 }
 
 /// A scene whose faces and vertices are ready, for any number of frames.
@@ -159,8 +174,8 @@ impl Raster {
     pub fn draw(&mut self, frame: &mut Frame) {
         let start = Instant::now();
         let view = &self.view;
-        let place = |p: &Vec3<f32>| view.snap(view.project(*p));
-        self.prepared.positions.par_iter().map(place).collect_into_vec(&mut self.screen);
+        let place = |v: &Vertex| view.snap(view.project(v.p));
+        self.prepared.vertices.par_iter().map(place).collect_into_vec(&mut self.screen);
         let chunks = self.place_faces();
         let obstacles = self.obstacles.take();
         let shader = Shader::new(&self.scene, &self.settings, self.view.eye, obstacles.as_ref());
@@ -179,7 +194,7 @@ impl Raster {
         frame.work = Count {
             faces: self.prepared.face_count() as u64,
             drawn,
-            vertices: self.prepared.positions.len() as u64,
+            vertices: self.prepared.vertices.len() as u64,
             samples: counts,
             evaluations: if phong { counts } else { before },
             elapsed: start.elapsed(),
@@ -195,8 +210,8 @@ impl Raster {
         if !keeps_hits {
             hit_bands.resize_with(frame.rgb.len().div_ceil(row), || &mut []);
         }
-        let anisotropic = self.kinds.iter().map(|&kind| shader.needs(kind)[1]).collect();
-        let job = BandJob { raster: self, shader, chunks, anisotropic };
+        let needs = self.kinds.iter().map(|&kind| shader.needs(kind)).collect();
+        let job = BandJob { raster: self, shader, chunks, needs };
         frame
             .rgb
             .par_chunks_mut(row)
@@ -217,44 +232,46 @@ impl Raster {
     fn place_faces(&self) -> Vec<Chunk> {
         let bands = self.view.height.div_ceil(BAND) as usize;
         let faces = self.prepared.face_count();
-        let mut chunks: Vec<Chunk> = (0..faces.div_ceil(CHUNK))
+        (0..faces.div_ceil(CHUNK))
             .into_par_iter()
             .map(|chunk| {
-                let mut out = Chunk { bins: vec![Vec::new(); bands], clipped: Vec::new(), offset: 0 };
+                let mut out = Chunk { bins: vec![Vec::new(); bands], clipped: Vec::new() };
                 for face in chunk * CHUNK..((chunk + 1) * CHUNK).min(faces) {
                     self.place_face(face, &mut out);
                 }
                 out
             })
-            .collect();
-        let mut offset = 0;
-        for chunk in &mut chunks {
-            chunk.offset = offset;
-            offset += chunk.clipped.len() as u32;
-        }
-        chunks
+            .collect()
     }
 
     #[inline]
     fn place_face(&self, face: usize, out: &mut Chunk) {
         let corners = self.prepared.face(face);
         let screen = |v: u32| self.screen[v as usize];
+        if let &[a, b, c] = corners {
+            let places = [screen(a), screen(b), screen(c)];
+            if places.iter().all(|s| s.x != Screen::CLIP) {
+                let placed = Placed { entry: face as u32, triangle: Some(([a, b, c], places)) };
+                self.sort(placed, places.into_iter(), out);
+                return;
+            }
+        }
         if corners.iter().any(|&v| screen(v).x == Screen::CLIP) {
             if let Some(clipped) = clip(&self.prepared, &self.view, face as u32) {
-                let number = CLIPPED | out.clipped.len() as u32;
-                let shown = self.sort(number, clipped.corners.iter().map(|c| c.screen), out);
+                let placed = Placed { entry: CLIPPED | out.clipped.len() as u32, triangle: None };
+                let shown = self.sort(placed, clipped.corners.iter().map(|c| c.screen), out);
                 if shown {
                     out.clipped.push(clipped);
                 }
             }
             return;
         }
-        self.sort(face as u32, corners.iter().map(|&v| screen(v)), out);
+        self.sort(Placed { entry: face as u32, triangle: None }, corners.iter().map(|&v| screen(v)), out);
     }
 
     /// Adds a face to its bands; `false` where it cannot show.
-    #[inline]
-    fn sort(&self, entry: u32, corners: impl Iterator<Item = Screen> + Clone, out: &mut Chunk) -> bool {
+    #[inline(always)]
+    fn sort(&self, placed: Placed, corners: impl Iterator<Item = Screen> + Clone, out: &mut Chunk) -> bool {
         let (mut low, mut high) = ([i32::MAX; 2], [i32::MIN; 2]);
         for c in corners.clone() {
             low = [low[0].min(c.x), low[1].min(c.y)];
@@ -266,7 +283,7 @@ impl Raster {
             return false;
         }
         for band in rows.start / BAND..=(rows.end - 1) / BAND {
-            out.bins[band as usize].push(entry);
+            out.bins[band as usize].push(placed);
         }
         true
     }
@@ -278,15 +295,15 @@ impl Raster {
             Mode::Gouraud => true,
             Mode::Flat => false,
         };
-        let count = if gouraud { 2 * self.prepared.positions.len() } else { self.prepared.face_count() };
+        let count = if gouraud { 2 * self.prepared.vertices.len() } else { self.prepared.face_count() };
         let mut kind = vec![u32::MAX; count];
-        let entries = chunks.iter().flat_map(|c| c.bins.iter().flatten().map(move |&e| (c, e)));
+        let entries = chunks.iter().flat_map(|c| c.bins.iter().flatten().map(move |p| (c, p.entry)));
         for (chunk, entry) in entries {
-            let face = self.face_of(chunk, entry);
+            let clipped = chunk.clipped(entry);
+            let face = clipped.map_or(entry, |c| c.face) as usize;
             let own = self.kind_of[self.prepared.objects[face] as usize];
             if gouraud {
                 let corners = self.prepared.face(face);
-                let clipped = (entry & CLIPPED != 0).then(|| &chunk.clipped[(entry & !CLIPPED) as usize]);
                 let back = self.shows_back(corners, clipped);
                 corners.iter().for_each(|&v| kind[corner_light(v, back)] = own);
             } else {
@@ -326,20 +343,12 @@ impl Raster {
         }
     }
 
-    /// The face of an entry of a bin.
-    pub(crate) fn face_of(&self, chunk: &Chunk, entry: u32) -> usize {
-        match entry & CLIPPED {
-            0 => entry as usize,
-            _ => chunk.clipped[(entry & !CLIPPED) as usize].face as usize,
-        }
-    }
-
     /// Adds a vertex with its own normal as that of its surface, or a face with its point.
     fn add_corner(&self, gouraud: bool, index: usize, points: &mut Points) {
         let data = &self.prepared;
         let (p, n, uv, tangent) = if gouraud {
-            let vertex = index / 2;
-            (data.positions[vertex], data.normals[vertex], data.uvs[vertex], Vec3::ZERO)
+            let Vertex { p, n, uv } = data.vertices[index / 2];
+            (p, n, uv, Vec3::ZERO)
         } else {
             let face = data.face(index);
             let count = match self.settings.flat_point {
@@ -349,15 +358,14 @@ impl Raster {
             let mean = |of: &dyn Fn(usize) -> f64| {
                 face[..count].iter().map(|&v| of(v as usize)).sum::<f64>() as f32 / count as f32
             };
-            let position = |k: usize| mean(&|v| f64::from(data.positions[v].to_array()[k]));
-            let uv = [0, 1].map(|k| mean(&|v| f64::from(data.uvs[v][k])));
+            let position = |k: usize| mean(&|v| f64::from(data.vertices[v].p.to_array()[k]));
+            let uv = [0, 1].map(|k| mean(&|v| f64::from(data.vertices[v].uv[k])));
             let n = data.face_normal(index).map(|x| x as f32);
             (vec3(position(0), position(1), position(2)), n, uv, data.tangent(index))
         };
         let i = points.n;
         for c in 0..3 {
             points.p[c][i] = p.to_array()[c];
-            points.origin[c][i] = p.to_array()[c];
             points.ns[c][i] = n.to_array()[c];
             points.ng[c][i] = n.to_array()[c];
             points.tangent[c][i] = tangent.to_array()[c];
@@ -376,10 +384,13 @@ pub(crate) fn corner_light(vertex: u32, back: bool) -> usize {
 
 /// Twice the signed area on the screen, square steps: negative where corners run counter-clockwise for the viewer (y is
 /// down).
-fn signed_area(corners: impl Iterator<Item = Screen> + Clone) -> i64 {
-    let next = corners.clone().cycle().skip(1);
-    let term = |(a, b): (Screen, Screen)| i64::from(a.x) * i64::from(b.y) - i64::from(b.x) * i64::from(a.y);
-    corners.zip(next).map(term).sum()
+#[inline]
+fn signed_area(corners: impl Iterator<Item = Screen>) -> i64 {
+    let cross = |a: Screen, b: Screen| i64::from(a.x) * i64::from(b.y) - i64::from(b.x) * i64::from(a.y);
+    let mut corners = corners;
+    let Some(first) = corners.next() else { return 0 };
+    let (last, sum) = corners.fold((first, 0), |(before, sum), corner| (corner, sum + cross(before, corner)));
+    sum + cross(last, first)
 }
 
 impl Frame {

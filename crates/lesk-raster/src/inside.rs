@@ -55,7 +55,8 @@ impl Line {
     pub fn weights(&self, x: f64) -> [f32; 2] {
         let b = [0, 1, 2].map(|k| (self.slope[k] * x + self.start[k]).max(0.0));
         let sum = b[0] + b[1] + b[2];
-        if sum > 0.0 { [(b[1] / sum) as f32, (b[2] / sum) as f32] } else { [1.0 / 3.0; 2] }
+        let inverse = 1.0 / sum;
+        if sum > 0.0 { [(b[1] * inverse) as f32, (b[2] * inverse) as f32] } else { [1.0 / 3.0; 2] }
     }
 }
 

@@ -9,14 +9,21 @@ use lesk_scene::Scene;
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
+/// A vertex; what belongs to it lies in one cache line.
+#[derive(Clone, Copy, Debug)]
+#[repr(C, align(32))]
+pub(crate) struct Vertex {
+    /// World position, metres.
+    pub p: Vec3<f32>,
+    /// Unit normal, world space.
+    pub n: Vec3<f32>,
+    pub uv: [f32; 2],
+}
+
 /// All faces of a scene.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Prepared {
-    /// World positions, metres.
-    pub positions: Vec<Vec3<f32>>,
-    /// Unit normals, world space.
-    pub normals: Vec<Vec3<f32>>,
-    pub uvs: Vec<[f32; 2]>,
+    pub vertices: Vec<Vertex>,
     /// First corner of each face, and the end.
     pub starts: Vec<u32>,
     /// Vertices of the corners.
@@ -54,8 +61,8 @@ impl Prepared {
             out.add(&shaded, scene.world.place(number), number)?;
         }
         let [mut low, mut high] = [[f32::INFINITY; 3], [f32::NEG_INFINITY; 3]];
-        for p in &out.positions {
-            for (k, x) in p.to_array().into_iter().enumerate() {
+        for vertex in &out.vertices {
+            for (k, x) in vertex.p.to_array().into_iter().enumerate() {
                 (low[k], high[k]) = (low[k].min(x), high[k].max(x));
             }
         }
@@ -68,15 +75,14 @@ impl Prepared {
         if self.corners.len() + shaded.vertices.corners.len() > MAX_CORNERS {
             return Err(Error::new(format!("scene has more than {MAX_CORNERS} corners of faces")));
         }
-        let base = self.positions.len() as u32;
+        let base = self.vertices.len() as u32;
         let wide = |v: Vec3<f32>| v.map(f64::from);
-        self.positions.extend(shaded.vertices.positions.iter().map(|&p| place.point(p)));
-        let normal = |n: &Vec3<f32>| place.normal_f64(wide(*n)).normalize().map(|x| x as f32);
-        self.normals.extend(shaded.vertices.normals.iter().map(normal));
-        match shaded.vertices.uvs.is_empty() {
-            true => self.uvs.resize(self.positions.len(), [0.0; 2]),
-            false => self.uvs.extend(&shaded.vertices.uvs),
-        }
+        let Vertices { positions, normals, uvs, .. } = &shaded.vertices;
+        self.vertices.extend(positions.iter().zip(normals).enumerate().map(|(k, (&p, &n))| Vertex {
+            p: place.point(p),
+            n: place.normal_f64(wide(n)).normalize().map(|x| x as f32),
+            uv: uvs.get(k).copied().unwrap_or_default(),
+        }));
         let mirrored = place.determinant() < 0.0;
         let mut start = 0;
         for &size in &shaded.sizes {
@@ -108,20 +114,18 @@ impl Prepared {
     /// The unit normal of a face (Newell's method), f64; zero without an area.
     pub fn face_normal(&self, index: usize) -> Vec3<f64> {
         let face = self.face(index);
-        let at = |k: usize| self.positions[face[k] as usize].map(f64::from);
+        let at = |k: usize| self.vertices[face[k] as usize].p.map(f64::from);
         let origin = at(0);
         let term = |k: usize| (at(k) - origin).cross(at(k + 1) - origin);
-        let sum = (1..face.len() - 1).fold(Vec3::<f64>::ZERO, |sum, k| sum + term(k));
-        let length = sum.length();
-        if length > 0.0 { sum * (1.0 / length) } else { Vec3::ZERO }
+        unit((1..face.len() - 1).fold(Vec3::<f64>::ZERO, |sum, k| sum + term(k)))
     }
 
     /// dp/du of a face by its first three corners; zero where the texture coordinates give none.
     pub fn tangent(&self, index: usize) -> Vec3<f32> {
         let face = self.face(index);
         let [a, b, c] = [face[0], face[1], face[2]].map(|v| v as usize);
-        let wide = |v: usize| self.positions[v].map(f64::from);
-        let uv = |v: usize| self.uvs[v].map(f64::from);
+        let wide = |v: usize| self.vertices[v].p.map(f64::from);
+        let uv = |v: usize| self.vertices[v].uv.map(f64::from);
         let (e1, e2) = (wide(b) - wide(a), wide(c) - wide(a));
         let [du1, dv1] = [0, 1].map(|k| uv(b)[k] - uv(a)[k]);
         let [du2, dv2] = [0, 1].map(|k| uv(c)[k] - uv(a)[k]);
@@ -145,9 +149,10 @@ impl Prepared {
                     let vertex = *local.entry(v).or_insert(next);
                     polygons.push(vertex);
                     if vertex == next {
-                        data.positions.push(self.positions[v as usize]);
-                        data.normals.push(self.normals[v as usize]);
-                        data.uvs.push(self.uvs[v as usize]);
+                        let vertex = self.vertices[v as usize];
+                        data.positions.push(vertex.p);
+                        data.normals.push(vertex.n);
+                        data.uvs.push(vertex.uv);
                     }
                 }
                 lesk_geometry::polygons::triangulate(&data.positions, &polygons, &mut data.triangles);
@@ -158,6 +163,19 @@ impl Prepared {
         }
         builder.build().map_err(|e| Error::new(e.to_string()))
     }
+}
+
+/// The unit normal of a triangle, as [`Prepared::face_normal`].
+#[inline]
+pub(crate) fn triangle_normal(corners: [Vec3<f32>; 3]) -> Vec3<f32> {
+    let [a, b, c] = [corners[0].map(f64::from), corners[1].map(f64::from), corners[2].map(f64::from)];
+    unit((b - a).cross(c - a)).map(|x| x as f32)
+}
+
+#[inline]
+fn unit(v: Vec3<f64>) -> Vec3<f64> {
+    let length = v.length();
+    if length > 0.0 { v * (1.0 / length) } else { Vec3::ZERO }
 }
 
 /// Whether two instances show the same geometry.

@@ -9,7 +9,7 @@ use lesk_bsdf::model::{Domain, Property};
 use lesk_geometry::{Ray, Surface, World};
 use lesk_image::tonemap::srgb_decode;
 use lesk_math::{CHANNELS, Color, Isa, Vec3};
-use lesk_scene::{MAX_PARAMS, Material, Scene, ShadowTerminator};
+use lesk_scene::{MAX_PARAMS, Material, Scene};
 use std::f32::consts::FRAC_1_PI;
 
 /// Surfaces that are shaded alike: one material, one light that they are.
@@ -29,8 +29,6 @@ pub(crate) struct Shader<'a> {
     eye: Vec3<f32>,
     renormalize: bool,
     space: Space,
-    /// Whether interpolated normals tell which lights an opaque face sees, and rays start raised.
-    smooth: bool,
     /// What is in the way of light, where shadows are wanted.
     obstacles: Option<&'a World>,
 }
@@ -58,14 +56,8 @@ impl<'a> Shader<'a> {
             eye,
             renormalize: settings.renormalize,
             space: settings.space,
-            smooth: settings.shadow_terminator.unwrap_or(scene.render.shadow_terminator) == ShadowTerminator::Hanika,
             obstacles,
         }
-    }
-
-    /// Whether rays to lights want to start raised.
-    pub fn raises(&self) -> bool {
-        self.smooth && self.obstacles.is_some()
     }
 
     /// Whether texture coordinates, and whether tangents matter to a kind of surface.
@@ -84,10 +76,8 @@ impl<'a> Shader<'a> {
     pub fn shade(&self, kind: Kind, back: Option<bool>, points: &mut Points, work: &mut Work) {
         work.sum.iter_mut().for_each(|row| row[..points.n].fill(0.0));
         let material = kind.material.map(|m| &self.scene.materials[m as usize]);
-        let transmits = self.classic.is_none() && material.is_some_and(Material::transmits);
         let sides = Sides {
-            transmits,
-            smooth: self.smooth && !transmits,
+            transmits: self.classic.is_none() && material.is_some_and(Material::transmits),
             two_sided: self.classic.is_some() || material.is_none_or(Material::two_sided),
             renormalize: self.renormalize,
             anisotropic: self.needs(kind)[1],
@@ -101,7 +91,7 @@ impl<'a> Shader<'a> {
         self.lanes.orient(points, work, self.eye.to_array(), sides);
         match (self.classic, material) {
             (Some(classic), _) => self.classic(classic, points, work),
-            (None, Some(material)) => self.model(material, points, work, transmits),
+            (None, Some(material)) => self.model(material, points, work, sides.transmits),
             (None, None) => {}
         }
         if let Some(light) = kind.light {
@@ -116,13 +106,21 @@ impl<'a> Shader<'a> {
     fn model(&self, material: &Material, points: &Points, work: &mut Work, transmits: bool) {
         let model = material.model();
         let kernel = model.kernels().for_isa(self.isa).eval;
-        let table = Table::new(material, points);
-        let views: Vec<&[f32]> = table.rows.iter().map(Vec::as_slice).collect();
+        let mut params = [0.0; MAX_PARAMS];
+        let uniform = material.bindings().is_empty();
+        let (values, rows);
+        let views: Vec<&[f32]> = if uniform {
+            values = material.params([0.0; 2], &mut params);
+            values.iter().map(std::slice::from_ref).collect()
+        } else {
+            rows = varying(material, points);
+            rows.iter().map(Vec::as_slice).collect()
+        };
         for source in &self.sources {
             source.ask(self.scene, &self.lanes, points, work, transmits);
             self.darken(source, points, work, transmits);
             self.lanes.local(points, work);
-            evaluate(kernel, points.n, &views, table.uniform, work);
+            evaluate(kernel, points.n, &views, uniform, work);
             self.lanes.add(points.n, work);
         }
     }
@@ -150,27 +148,19 @@ impl<'a> Shader<'a> {
     /// Takes the light away from points that do not see it.
     fn darken(&self, source: &Source, points: &Points, work: &mut Work, transmits: bool) {
         let Some(world) = self.obstacles else { return };
-        let raised = self.classic.is_some() || self.smooth && !transmits;
         for i in 0..points.n {
             if (0..CHANNELS).all(|c| work.value[c][i] == 0.0) || work.alive[i] == 0.0 {
                 continue;
             }
-            let mut surface = Surface::at(at(&points.p, i), at(&points.ng, i));
-            if raised {
-                // on the side of the viewer, whatever the direction: what the face itself hides stays hidden
-                let start = if self.smooth { at(&points.origin, i) } else { surface.p };
-                (surface.p, surface.lift) = (start + surface.ng * surface.lift, 0.0);
-            }
+            let surface = Surface::at(at(&points.p, i), at(&points.ng, i));
             let wi = at(&work.wi, i);
             let ray = match source {
                 Source::Point(p, _) => Ray::to_point(&surface, (*p).into()),
                 Source::Parallel(..) => Ray::leaving(&surface, wi),
-                Source::Asked { .. } => {
-                    match source.sample(self.scene, at(&points.p, i), at(&points.side, i), transmits) {
-                        Some(sample) => sample.shadow_ray(&surface),
-                        None => continue,
-                    }
-                }
+                Source::Asked { .. } => match source.sample(self.scene, surface.p, surface.ng, transmits) {
+                    Some(sample) => sample.shadow_ray(&surface),
+                    None => continue,
+                },
             };
             if world.occluded(&ray) {
                 (0..CHANNELS).for_each(|c| work.value[c][i] = 0.0);
@@ -227,26 +217,13 @@ fn evaluate(kernel: Kernel, n: usize, params: &[&[f32]], uniform: bool, work: &m
     unsafe { kernel(&block, &mut work.f) };
 }
 
-/// Parameters of the model at the points of a block.
-struct Table {
-    rows: Vec<Vec<f32>>,
-    uniform: bool,
-}
-
-impl Table {
-    fn new(material: &Material, points: &Points) -> Table {
-        let mut params = [0.0; MAX_PARAMS];
-        let uniform = material.bindings().is_empty();
-        let count = material.model().param_count();
-        if uniform {
-            let rows = material.params([0.0; 2], &mut params).iter().map(|&v| vec![v]).collect();
-            return Table { rows, uniform };
-        }
-        let mut rows = vec![vec![0.0; points.n]; count];
-        for i in 0..points.n {
-            let values = material.params([points.uv[0][i], points.uv[1][i]], &mut params);
-            rows.iter_mut().zip(values).for_each(|(row, &v)| row[i] = v);
-        }
-        Table { rows, uniform }
+/// Parameters of the model at the points of a block, one row each.
+fn varying(material: &Material, points: &Points) -> Vec<Vec<f32>> {
+    let mut params = [0.0; MAX_PARAMS];
+    let mut rows = vec![vec![0.0; points.n]; material.model().param_count()];
+    for i in 0..points.n {
+        let values = material.params([points.uv[0][i], points.uv[1][i]], &mut params);
+        rows.iter_mut().zip(values).for_each(|(row, &v)| row[i] = v);
     }
+    rows
 }

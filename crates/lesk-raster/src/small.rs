@@ -67,15 +67,15 @@ pub(crate) fn triangle(band: &mut Band, id: u32, corners: [Screen; 3]) {
     for y in rows {
         let base = _mm256_set1_ps(plane.row(y));
         let start = band.row(y).start;
-        let mut at = at_row;
-        for (step, column) in columns.clone().step_by(LANES).enumerate() {
+        let (mut at, mut column, mut along) = (at_row, columns.start as usize, first);
+        while column < columns.end as usize {
             let outside = _mm256_or_si256(_mm256_or_si256(at[0], at[1]), at[2]);
             if _mm256_movemask_ps(_mm256_castsi256_ps(outside)) != 0xff {
-                let along = _mm256_add_ps(_mm256_set1_ps(first + (step * LANES) as f32 * STEPS as f32), offsets);
+                let along = _mm256_add_ps(_mm256_set1_ps(along), offsets);
                 let z = _mm256_add_ps(base, _mm256_mul_ps(per_x, along));
                 // beyond the corners only rounding leads
                 let z = _mm256_min_ps(_mm256_max_ps(z, low), high);
-                let from = start + column as usize;
+                let from = start + column;
                 // SAFETY: behind every row there is room for eight columns more, which is checked here
                 unsafe {
                     let depth = band.depth[from..from + LANES].as_mut_ptr();
@@ -89,6 +89,8 @@ pub(crate) fn triangle(band: &mut Band, id: u32, corners: [Screen; 3]) {
                 }
             }
             at = [0, 1, 2].map(|k| _mm256_add_epi32(at[k], per_lanes[k]));
+            column += LANES;
+            along += (LANES as i32 * STEPS) as f32;
         }
         at_row = [0, 1, 2].map(|k| _mm256_add_epi32(at_row[k], per_row[k]));
     }
