@@ -145,7 +145,7 @@ IDEAS = (
     Idea(
         "Gouraud against Phong",
         "Gouraud misses the maximum; not invariant to rotation",
-        ("missed_highlights", "highlight_crossing", "rotating_quad"),
+        ("missed_highlights", "highlight_crossing", "rotating_quad", "shadow_terminator"),
     ),
 )
 """All ideas in the order of the slides."""

@@ -53,7 +53,7 @@ class Shading(Render):
         counts, times, warnings, faces = facts
         self.counts: dict[str, int] = dict(counts)
         """`faces` of the scene; `drawn`: faces put into bands of 32 rows; `vertices`; `samples` that show a face;
-        `evaluations`: points at which light was computed."""
+        `evaluations`: points at which light was computed, vertices once for each side that their faces show."""
         self.milliseconds: list[float] = times
         """Time of each frame, ms, without reading and preparing the scene."""
         self.warnings: list[str] = warnings
@@ -76,6 +76,7 @@ def shade(
     supersampling: int = 1,
     quadrature: int = 16,
     shadows: bool = False,
+    shadow_terminator: str | None = None,
     cull: bool = False,
     flat_point: str = "centroid",
     space: str = "linear",
@@ -111,6 +112,9 @@ def shade(
         Points per light that has an area or fills the sky, 1 to 4096.
     shadows : bool
         Whether rays look for obstacles between a point and its lights.
+    shadow_terminator : str, optional
+        On faces with interpolated normals, `hanika`: the normal says which lights are seen, and rays start from points
+        raised to the surface that the faces stand for; `none`: the face says, in blocks. Else what the scene says.
     cull : bool
         Whether faces that show their back are left out.
     flat_point : str
@@ -138,7 +142,7 @@ def shade(
 
     References
     ----------
-    gouraud1971, phong1975
+    gouraud1971, phong1975, hanika2021
     """
     chosen = wishes(
         shading=shading,
@@ -151,6 +155,7 @@ def shade(
         supersampling=supersampling,
         quadrature=quadrature,
         shadows=shadows,
+        shadow_terminator=shadow_terminator,
         cull=cull,
         flat_point=flat_point,
         space=space,
@@ -171,6 +176,7 @@ _DEFAULTS: dict[str, Any] = {
     "supersampling": 1,
     "quadrature": 16,
     "shadows": False,
+    "shadow_terminator": None,
     "cull": False,
     "classic": None,
     "aovs": False,

@@ -105,6 +105,7 @@ def render(
     time: float | None = None,
     seed: int | None = None,
     max_depth: int | None = None,
+    shadow_terminator: str | None = None,
     split: Sequence[str] | None = None,
     aovs: bool | None = None,
     threads: int | None = None,
@@ -127,6 +128,9 @@ def render(
         Seed; the same seed, samples, build and instruction set give the same bits for any number of threads.
     max_depth : int, optional
         Scattering events of a path at most.
+    shadow_terminator : str, optional
+        Where rays start on opaque faces with interpolated normals: `hanika`, from points raised to the surface that
+        the faces stand for; `none`, from the face, whose own shadow then has a border of blocks.
     split : sequence of str, optional
         Light-path layers: `direct`, `indirect`, `specular`, `caustic`.
     aovs : bool, optional
@@ -172,6 +176,7 @@ def render(
         "time": time,
         "seed": seed,
         "max_depth": max_depth,
+        "shadow_terminator": shadow_terminator,
         "split": None if split is None else list(split),
         "aovs": aovs,
         "threads": threads,

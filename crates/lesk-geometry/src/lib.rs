@@ -51,6 +51,7 @@ mod robust;
 mod shapes;
 mod surface;
 mod teapot;
+mod terminator;
 mod transform;
 
 pub use bounds::Bounds;
@@ -63,4 +64,5 @@ pub use ray::{Hit, Ray};
 pub use shapes::{AreaSampler, Geometry, SurfaceSample, cube, icosphere, rectangle, uv_sphere};
 pub use surface::Surface;
 pub use teapot::{bezier_patch, teapot};
+pub use terminator::{WeightedCorner, raised};
 pub use transform::{Rows, Transform};

@@ -1,7 +1,7 @@
 //! Rasterising: one call per frame, and what it took.
 
 use crate::errors;
-use crate::render::PyPicture;
+use crate::render::{PyPicture, terminator};
 use crate::scenes::PyScene;
 use lesk_geometry::EdgeRule;
 use lesk_raster::{Classic, ClassicLight, Frame, Highlight, Raster, Settings};
@@ -25,6 +25,8 @@ pub struct ShadeWishes {
     supersampling: u32,
     quadrature: u32,
     shadows: bool,
+    /// Without it, what the scene says.
+    shadow_terminator: Option<String>,
     cull: bool,
     flat_point: String,
     space: String,
@@ -51,7 +53,14 @@ pub struct ClassicWishes {
 }
 
 impl ShadeWishes {
-    fn settings(&self) -> Result<Settings, lesk_raster::Error> {
+    fn settings(&self) -> PyResult<Settings> {
+        self.chosen().map_err(errors::parameter).and_then(|settings| {
+            let shadow_terminator = terminator(self.shadow_terminator.as_deref())?;
+            Ok(Settings { shadow_terminator, ..settings })
+        })
+    }
+
+    fn chosen(&self) -> Result<Settings, lesk_raster::Error> {
         Ok(Settings {
             shading: self.shading.parse()?,
             interpolation: self.interpolation.parse()?,
@@ -63,6 +72,7 @@ impl ShadeWishes {
             supersampling: self.supersampling,
             quadrature: self.quadrature,
             shadows: self.shadows,
+            shadow_terminator: None,
             cull: self.cull,
             flat_point: self.flat_point.parse()?,
             space: self.space.parse()?,
@@ -85,6 +95,7 @@ impl ShadeWishes {
             ("space", self.space.clone()),
         ];
         out.extend(self.crease_angle_deg.map(|a| ("creaseAngleDeg", a.to_string())));
+        out.extend(self.shadow_terminator.clone().map(|name| ("shadowTerminator", name)));
         out
     }
 }
@@ -115,7 +126,7 @@ type Facts<'py> = (Vec<(&'static str, u64)>, Vec<f64>, Vec<String>, Option<Bound
 /// Shades a scene; `frames` draws it several times, for their times.
 #[pyfunction]
 pub fn shade<'py>(py: Python<'py>, scene: &PyScene, wishes: ShadeWishes) -> PyResult<(PyPicture, Facts<'py>)> {
-    let settings = wishes.settings().map_err(errors::parameter)?;
+    let settings = wishes.settings()?;
     let scene = scene.0.clone();
     let pool = match wishes.threads {
         Some(n) => Some(rayon::ThreadPoolBuilder::new().num_threads(n).build().map_err(errors::parameter)?),
@@ -177,7 +188,7 @@ pub struct PyRaster {
 impl PyRaster {
     #[new]
     fn new(py: Python<'_>, scene: &PyScene, wishes: ShadeWishes) -> PyResult<Self> {
-        let settings = wishes.settings().map_err(errors::parameter)?;
+        let settings = wishes.settings()?;
         let scene = scene.0.clone();
         let raster = py.detach(|| Raster::new(scene, &settings)).map_err(errors::parameter)?;
         let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().map_err(errors::parameter)?;
@@ -195,7 +206,7 @@ impl PyRaster {
 /// The scene with its surfaces as the rasteriser sees them: faces and normals are those of the settings.
 #[pyfunction]
 pub fn shaded_surfaces(py: Python<'_>, scene: &PyScene, wishes: ShadeWishes) -> PyResult<PyScene> {
-    let settings = wishes.settings().map_err(errors::parameter)?;
+    let settings = wishes.settings()?;
     let scene = scene.0.clone();
     let world = py.detach(|| Raster::new(scene.clone(), &settings)?.world()).map_err(errors::parameter)?;
     Ok(PyScene(Arc::new(Scene { world, ..(*scene).clone() })))

@@ -6,7 +6,7 @@ use crate::{errors, image};
 use lesk_image::io::{self, Format, exr, png};
 use lesk_image::{Film, ImageError, ToneMapper, tonemap};
 use lesk_math::Isa;
-use lesk_scene::Scene;
+use lesk_scene::{Scene, ShadowTerminator};
 use lesk_trace::checkpoint::{self, Identity};
 use lesk_trace::{End, Progress, Settings};
 use numpy::PyArray3;
@@ -25,6 +25,7 @@ pub struct Wishes {
     time: Option<f64>,
     seed: Option<u64>,
     max_depth: Option<u32>,
+    shadow_terminator: Option<String>,
     split: Option<Vec<String>>,
     aovs: Option<bool>,
     threads: Option<usize>,
@@ -84,6 +85,7 @@ pub fn render(py: Python<'_>, scene: &PyScene, wishes: Wishes, progress: Option<
         ("seed", settings.render.seed.to_string()),
         ("maxDepth", settings.render.max_depth.to_string()),
         ("rouletteDepth", settings.render.roulette_depth.to_string()),
+        ("shadowTerminator", settings.render.shadow_terminator.name().to_owned()),
         ("filter", format!("{:?}", scene.film.filter)),
     ];
     Ok(PyPicture { scene: scene.clone(), film, settings, ended, seconds, resumed, raised })
@@ -95,11 +97,20 @@ fn settings(scene: &Scene, wishes: &Wishes) -> PyResult<Settings> {
     render.seed = wishes.seed.unwrap_or(render.seed);
     render.max_depth = wishes.max_depth.unwrap_or(render.max_depth);
     render.aovs = wishes.aovs.unwrap_or(render.aovs);
+    render.shadow_terminator = terminator(wishes.shadow_terminator.as_deref())?.unwrap_or(render.shadow_terminator);
     if let Some(split) = &wishes.split {
         render.split = split.clone();
     }
     let time = wishes.time.map(Duration::try_from_secs_f64).transpose().map_err(errors::parameter)?;
     Ok(Settings { render, time })
+}
+
+/// A way to handle the border of shadows, by name.
+pub(crate) fn terminator(name: Option<&str>) -> PyResult<Option<ShadowTerminator>> {
+    let Some(name) = name else { return Ok(None) };
+    let known = ShadowTerminator::NAMES.join(", ");
+    let unknown = || errors::parameter(format!("there is no shadow terminator `{name}`, but {known} are accepted"));
+    ShadowTerminator::named(name).map(Some).ok_or_else(unknown)
 }
 
 fn sample_count(film: &Film) -> u64 {

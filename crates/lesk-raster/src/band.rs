@@ -4,6 +4,7 @@ use crate::clip::Clipped;
 use crate::frame::{Chunk, Placed, Raster, SampleHit, aov, corner_light};
 use crate::inside::{Line, Row, Triangle, Weighted, unclip};
 use crate::lanes::{Points, Work};
+use crate::lights::at;
 use crate::prepare::triangle_normal;
 use crate::samples::{Samples, Spot};
 use crate::scan::{Band, Crossing};
@@ -50,6 +51,8 @@ pub(crate) struct BandJob<'a> {
     pub chunks: &'a [Chunk],
     /// Of each kind, whether texture coordinates and whether tangents matter.
     pub needs: Vec<[bool; 2]>,
+    /// Of each kind, whether a map bends its normals.
+    pub mapped: Vec<bool>,
 }
 
 /// Where a band goes.
@@ -172,8 +175,10 @@ impl BandJob<'_> {
             spots.iter().for_each(|&spot| out.write(out.place(spot).1, light));
             return;
         }
+        let kind = raster.kind_of[raster.prepared.objects[face as usize] as usize];
+        let plain = mode == Mode::Phong && !self.shader.raises() && !self.mapped[kind as usize];
         match placed.triangle {
-            Some((corners, _)) if mode == Mode::Phong => self.shade_triangle(buffers, face, corners, spots, out),
+            Some((corners, _)) if plain => self.shade_triangle(buffers, face, corners, spots, out),
             _ => self.shade_polygon(buffers, face, clipped, spots, out),
         }
     }
@@ -292,6 +297,38 @@ impl BandJob<'_> {
         }
     }
 
+    /// What the normal map of a point goes along: the interpolated tangent; in flat shading that of the face.
+    fn turn(&self, points: &mut Points, i: usize, surface: &Surface, weighted: &Weighted) {
+        let data = &self.raster.prepared;
+        let mut sum = [0.0f64; 4];
+        for &(v, w) in weighted {
+            let own = data.tangents.get(v as usize).copied().unwrap_or_default();
+            (0..4).for_each(|c| sum[c] += w * f64::from(own[c]));
+        }
+        let [x, y, z, hand] = match self.raster.settings.shading {
+            Mode::Flat => data.whole_tangent(surface.face as usize),
+            _ => sum.map(|x| x as f32),
+        };
+        (0..3).for_each(|c| points.along[c][i] = [x, y, z][c]);
+        points.hand[i] = if hand < 0.0 { -1.0 } else { 1.0 };
+    }
+
+    /// Where rays of light start from a point of a face.
+    fn raise(&self, points: &mut Points, i: usize, weighted: &Weighted) {
+        let data = &self.raster.prepared;
+        let p = at(&points.p, i);
+        let side = if at(&points.ng, i).dot(self.raster.view.eye - p) < 0.0 { -1.0 } else { 1.0 };
+        let corner = |&(v, w): &(u32, f64)| {
+            let vertex = &data.vertices[v as usize];
+            (w, vertex.p.map(f64::from), vertex.n.map(f64::from) * side)
+        };
+        let start = match self.raster.settings.shading {
+            Mode::Flat => p,
+            _ => lesk_geometry::raised(p.map(f64::from), weighted.iter().map(corner)).map(|x| x as f32),
+        };
+        (0..3).for_each(|c| points.origin[c][i] = start.to_array()[c]);
+    }
+
     /// Adds the point of `buffers.whole` to the block of its kind.
     fn wait(&self, buffers: &mut Buffers, surface: &Surface, target: u32, out: &mut Output) {
         let data = &self.raster.prepared;
@@ -313,6 +350,12 @@ impl BandJob<'_> {
         }
         (0..2).for_each(|c| points.uv[c][i] = uv[c] as f32);
         surface.add(points, target);
+        if self.shader.raises() {
+            self.raise(points, i, &buffers.whole);
+        }
+        if surface.mapped {
+            self.turn(points, i, surface, &buffers.whole);
+        }
         if points.n == BLOCK {
             self.flush(buffers, surface.kind, out);
         }
@@ -345,6 +388,7 @@ impl BandJob<'_> {
 struct Surface {
     face: u32,
     kind: u32,
+    mapped: bool,
     normal: [f32; 3],
     tangent: [f32; 3],
 }
@@ -354,7 +398,8 @@ impl Surface {
         let data = &job.raster.prepared;
         let kind = job.raster.kind_of[data.objects[face as usize] as usize];
         let tangent = if job.needs[kind as usize][1] { data.tangent(face as usize) } else { Vec3::ZERO };
-        Surface { face, kind, normal: normal.to_array(), tangent: tangent.to_array() }
+        let mapped = job.mapped[kind as usize];
+        Surface { face, kind, mapped, normal: normal.to_array(), tangent: tangent.to_array() }
     }
 
     /// Fills what a point has from its face, and counts it.

@@ -40,7 +40,7 @@ pub struct Count {
     pub vertices: u64,
     /// Samples that a face covers.
     pub samples: u64,
-    /// Points at which light was computed: faces, vertices or samples.
+    /// Points at which light was computed: faces, vertices or samples; vertices once for each side that their faces show.
     pub evaluations: u64,
     /// Wall-clock time of the frame, without preparing the scene.
     pub elapsed: Duration,
@@ -149,6 +149,12 @@ impl Raster {
             out.push("the lens of the camera is left out: the rasteriser has pinholes only".into());
         }
         if self.settings.classic.is_none() {
+            let second = |m: &&lesk_scene::Material| {
+                m.bindings().iter().any(|b| b.uv_set > 0) || m.normal_map().is_some_and(|map| map.uv_set > 0)
+            };
+            out.extend(self.scene.materials.iter().filter(second).map(|m| {
+                format!("material `{}` wants a second set of texture coordinates: the first one counts here", m.name())
+            }));
             let mirrors = self.scene.materials.iter().filter(|m| {
                 let mut params = [0.0; lesk_scene::MAX_PARAMS];
                 let params = m.params([0.5; 2], &mut params);
@@ -211,7 +217,8 @@ impl Raster {
             hit_bands.resize_with(frame.rgb.len().div_ceil(row), || &mut []);
         }
         let needs = self.kinds.iter().map(|&kind| shader.needs(kind)).collect();
-        let job = BandJob { raster: self, shader, chunks, needs };
+        let mapped = self.kinds.iter().map(|&kind| shader.is_mapped(kind)).collect();
+        let job = BandJob { raster: self, shader, chunks, needs, mapped };
         frame
             .rgb
             .par_chunks_mut(row)
@@ -346,9 +353,9 @@ impl Raster {
     /// Adds a vertex with its own normal as that of its surface, or a face with its point.
     fn add_corner(&self, gouraud: bool, index: usize, points: &mut Points) {
         let data = &self.prepared;
-        let (p, n, uv, tangent) = if gouraud {
+        let (p, n, uv, [x, y, z, hand]) = if gouraud {
             let Vertex { p, n, uv } = data.vertices[index / 2];
-            (p, n, uv, Vec3::ZERO)
+            (p, n, uv, data.tangents.get(index / 2).copied().unwrap_or([0.0, 0.0, 0.0, 1.0]))
         } else {
             let face = data.face(index);
             let count = match self.settings.flat_point {
@@ -361,15 +368,18 @@ impl Raster {
             let position = |k: usize| mean(&|v| f64::from(data.vertices[v].p.to_array()[k]));
             let uv = [0, 1].map(|k| mean(&|v| f64::from(data.vertices[v].uv[k])));
             let n = data.face_normal(index).map(|x| x as f32);
-            (vec3(position(0), position(1), position(2)), n, uv, data.tangent(index))
+            (vec3(position(0), position(1), position(2)), n, uv, data.whole_tangent(index))
         };
         let i = points.n;
         for c in 0..3 {
             points.p[c][i] = p.to_array()[c];
+            points.origin[c][i] = p.to_array()[c];
             points.ns[c][i] = n.to_array()[c];
             points.ng[c][i] = n.to_array()[c];
-            points.tangent[c][i] = tangent.to_array()[c];
+            points.tangent[c][i] = [x, y, z][c];
+            points.along[c][i] = [x, y, z][c];
         }
+        points.hand[i] = hand;
         points.uv[0][i] = uv[0];
         points.uv[1][i] = uv[1];
         points.n += 1;

@@ -16,7 +16,14 @@ pub(crate) struct Points {
     pub ns: Rows3,
     /// Normal of the face, unit.
     pub ng: Rows3,
+    /// Tells from which side light comes: the interpolated normal, or that of the face; after [`Lanes::orient`].
+    pub side: Rows3,
+    /// Where rays to lights start; kept by those who trace them.
+    pub origin: Rows3,
     pub tangent: Rows3,
+    /// What a normal map goes along, of any length, and its hand: -1 where it lies mirrored, else 1.
+    pub along: Rows3,
+    pub hand: Row,
     pub uv: [Row; 2],
     /// Where the result goes.
     pub target: [u32; BLOCK],
@@ -28,7 +35,20 @@ impl Points {
     pub fn new() -> Box<Points> {
         let zero = [[0.0; BLOCK]; 3];
         let (uv, none) = ([[0.0; BLOCK]; 2], [0; BLOCK]);
-        Box::new(Points { n: 0, p: zero, ns: zero, ng: zero, tangent: zero, uv, target: none, face: none })
+        Box::new(Points {
+            n: 0,
+            p: zero,
+            ns: zero,
+            ng: zero,
+            side: zero,
+            origin: zero,
+            tangent: zero,
+            along: zero,
+            hand: [1.0; BLOCK],
+            uv,
+            target: none,
+            face: none,
+        })
     }
 }
 
@@ -75,7 +95,7 @@ impl Work {
 }
 
 /// How a surface meets the viewer.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Sides {
     /// Light may pass: nothing is turned.
     pub transmits: bool,
@@ -85,13 +105,25 @@ pub(crate) struct Sides {
     pub anisotropic: bool,
     /// The classic local model: it knows the interpolated normal only, wherever that points.
     pub classic: bool,
+    /// Interpolated normals tell from which side light comes.
+    pub smooth: bool,
+    /// Normals were bent by a map; `side` holds those before.
+    pub mapped: bool,
     /// Of vertices, whether the face shows its back; other points have a face of their own to tell.
     pub back: Option<bool>,
 }
 
 impl Sides {
-    const USUAL: Sides =
-        Sides { transmits: false, two_sided: true, renormalize: true, anisotropic: false, classic: false, back: None };
+    const USUAL: Sides = Sides {
+        transmits: false,
+        two_sided: true,
+        renormalize: true,
+        anisotropic: false,
+        classic: false,
+        smooth: true,
+        mapped: false,
+        back: None,
+    };
 }
 
 /// Least cosine between the normal of a vertex and the viewer, as a model sees it: vertices just behind the silhouette
@@ -160,10 +192,12 @@ fn orient_body(points: &mut Points, work: &mut Work, eye: [f32; 3], sides: Sides
         }
         let agree = (product(ns, wo) > 0.0) == (product(ng, wo) > 0.0);
         let ns = choose(agree | sides.classic, ns, ng);
+        let plain = if sides.mapped { choose(agree, scaled(vector(&points.side, i), sign), ng) } else { ns };
         for c in 0..3 {
             work.wo[c][i] = wo[c];
             points.ns[c][i] = ns[c];
             points.ng[c][i] = ng[c];
+            points.side[c][i] = if sides.smooth { plain[c] } else { ng[c] };
         }
     }
     for i in 0..n {
@@ -242,7 +276,7 @@ fn local_body(points: &Points, work: &mut Work) {
     let n = points.n.min(BLOCK);
     for i in 0..n {
         let local = [dot(&work.t, &work.wi, i), dot(&work.b, &work.wi, i), dot(&points.ns, &work.wi, i)];
-        let agree = (dot(&points.ng, &work.wi, i) > 0.0) == (local[2] > 0.0);
+        let agree = (dot(&points.side, &work.wi, i) > 0.0) == (local[2] > 0.0);
         let local = shorten(local, work.length[i]);
         for c in 0..3 {
             work.wi_local[c][i] = local[c];
@@ -277,17 +311,11 @@ macro_rules! lanes {
     ($($feature:literal)?) => {{
         $(#[target_feature(enable = $feature)])?
         unsafe fn orient(points: &mut Points, work: &mut Work, eye: [f32; 3], sides: Sides) {
-            // constants fold into the common cases
-            match sides {
-                Sides {
-                    transmits: false,
-                    two_sided: true,
-                    renormalize: true,
-                    anisotropic: false,
-                    classic: false,
-                    back: None,
-                } => orient_body(points, work, eye, Sides::USUAL),
-                _ => orient_body(points, work, eye, sides),
+            // constants fold into the common case
+            if sides == Sides::USUAL {
+                orient_body(points, work, eye, Sides::USUAL)
+            } else {
+                orient_body(points, work, eye, sides)
             }
         }
         $(#[target_feature(enable = $feature)])?

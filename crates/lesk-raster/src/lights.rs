@@ -65,7 +65,7 @@ impl Source {
             }
             Source::Asked { .. } => {
                 for i in 0..points.n {
-                    let sample = self.sample(scene, at(&points.p, i), at(&points.ng, i), transmits);
+                    let sample = self.sample(scene, at(&points.p, i), at(&points.side, i), transmits);
                     let wi = sample.map_or(Vec3::Z, |s| s.wi).to_array();
                     for c in 0..3 {
                         work.wi[c][i] = wi[c];
@@ -79,8 +79,8 @@ impl Source {
     }
 
     /// The light at one point; `value` is the illuminance of a plane perpendicular to `wi`.
-    pub fn sample(&self, scene: &Scene, p: Vec3<f32>, ng: Vec3<f32>, transmits: bool) -> Option<LightSample> {
-        let receiver = if transmits { Receiver::anywhere(p) } else { Receiver::opaque(p, ng) };
+    pub fn sample(&self, scene: &Scene, p: Vec3<f32>, n: Vec3<f32>, transmits: bool) -> Option<LightSample> {
+        let receiver = if transmits { Receiver::anywhere(p) } else { Receiver::opaque(p, n) };
         let Source::Asked { light, part, u, share } = self else { return None };
         let mut sample = scene.lights.list().get(*light as usize)?.sample(*part, &receiver, *u)?;
         if !sample.delta {

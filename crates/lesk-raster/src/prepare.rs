@@ -2,6 +2,8 @@
 
 use crate::error::{Error, Result};
 use crate::settings::{Interpolation, Mode, Settings};
+use crate::shade::is_isotropic;
+use crate::tangents::{Tangent, split};
 use lesk_geometry::polygons::{Vertices, cylinder_polygons, grid_polygons, rectangle_polygons, sphere_polygons};
 use lesk_geometry::{Geometry, Mesh, MeshData, PolygonMesh, Transform, World, WorldBuilder};
 use lesk_math::{Vec3, vec3};
@@ -24,6 +26,8 @@ pub(crate) struct Vertex {
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Prepared {
     pub vertices: Vec<Vertex>,
+    /// World space; empty where no object needs any.
+    pub tangents: Vec<Tangent>,
     /// First corner of each face, and the end.
     pub starts: Vec<u32>,
     /// Vertices of the corners.
@@ -42,19 +46,20 @@ const MAX_CORNERS: usize = 1 << 30;
 impl Prepared {
     pub fn new(scene: &Scene, settings: &Settings) -> Result<Self> {
         let mut out = Prepared { starts: vec![0], first_face: vec![0], ..Prepared::default() };
-        let mut made: Vec<(Geometry, Arc<Shaded>)> = Vec::new();
+        let mut made: Vec<(Geometry, bool, Arc<Shaded>)> = Vec::new();
         for number in 0..scene.world.instance_count() as u32 {
             let geometry = scene.world.geometry_of(number);
-            let known = made.iter().find(|(g, _)| same(g, geometry)).map(|(_, s)| s.clone());
+            let tangents = wants_tangents(scene, settings, number);
+            let known = made.iter().find(|(g, t, _)| same(g, geometry) && *t == tangents).map(|(.., s)| s.clone());
             let shaded = match known {
                 Some(shaded) => shaded,
                 None => {
-                    let shaded = Arc::new(Shaded::new(geometry, settings).map_err(|e| {
+                    let shaded = Arc::new(Shaded::new(geometry, settings, tangents).map_err(|e| {
                         let name = &scene.objects[number as usize].name;
                         let about = if name.is_empty() { "object".into() } else { format!("object `{name}`") };
                         Error::new(format!("{about}: {e}"))
                     })?);
-                    made.push((geometry.clone(), shaded.clone()));
+                    made.push((geometry.clone(), tangents, shaded.clone()));
                     shaded
                 }
             };
@@ -84,6 +89,16 @@ impl Prepared {
             uv: uvs.get(k).copied().unwrap_or_default(),
         }));
         let mirrored = place.determinant() < 0.0;
+        if !shaded.tangents.is_empty() {
+            let side = if mirrored { -1.0 } else { 1.0 };
+            self.tangents.resize(base as usize, [0.0; 4]);
+            self.tangents.extend(shaded.tangents.iter().map(|&[x, y, z, hand]| {
+                let [x, y, z] = place.vector(vec3(x, y, z)).to_array();
+                [x, y, z, hand * side]
+            }));
+        } else if !self.tangents.is_empty() {
+            self.tangents.resize(self.vertices.len(), [0.0; 4]);
+        }
         let mut start = 0;
         for &size in &shaded.sizes {
             let face = &shaded.vertices.corners[start..start + size as usize];
@@ -133,6 +148,15 @@ impl Prepared {
         if t.length().is_finite() { t } else { Vec3::ZERO }
     }
 
+    /// The tangent of a face by its first three corners, with its hand.
+    pub fn whole_tangent(&self, index: usize) -> Tangent {
+        let face = self.face(index);
+        let [a, b, c] = [face[0], face[1], face[2]].map(|v| self.vertices[v as usize].uv.map(f64::from));
+        let turn = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+        let [x, y, z] = self.tangent(index).to_array();
+        [x, y, z, if turn < 0.0 { -1.0 } else { 1.0 }]
+    }
+
     /// The faces as a world for rays, one mesh per object, in the order of the scene's objects: what the path tracer needs
     /// to see the same surfaces with the same normals.
     pub fn world(&self) -> Result<World> {
@@ -153,6 +177,7 @@ impl Prepared {
                         data.positions.push(vertex.p);
                         data.normals.push(vertex.n);
                         data.uvs.push(vertex.uv);
+                        data.tangents.extend(self.tangents.get(v as usize));
                     }
                 }
                 lesk_geometry::polygons::triangulate(&data.positions, &polygons, &mut data.triangles);
@@ -178,6 +203,13 @@ fn unit(v: Vec3<f64>) -> Vec3<f64> {
     if length > 0.0 { v * (1.0 / length) } else { Vec3::ZERO }
 }
 
+/// Whether the vertices of an object need tangents: for a normal map, or to light a brushed material at them.
+fn wants_tangents(scene: &Scene, settings: &Settings, object: u32) -> bool {
+    let material = scene.objects[object as usize].material.map(|m| &scene.materials[m as usize]);
+    let Some(material) = material.filter(|_| settings.classic.is_none()) else { return false };
+    material.normal_map().is_some() || (settings.shading == Mode::Gouraud && !is_isotropic(material))
+}
+
 /// Whether two instances show the same geometry.
 fn same(a: &Geometry, b: &Geometry) -> bool {
     match (a, b) {
@@ -191,17 +223,24 @@ fn same(a: &Geometry, b: &Geometry) -> bool {
 struct Shaded {
     vertices: Vertices,
     sizes: Vec<u32>,
+    /// One per vertex, or none.
+    tangents: Vec<Tangent>,
 }
 
 impl Shaded {
-    fn new(geometry: &Geometry, settings: &Settings) -> std::result::Result<Self, lesk_geometry::Error> {
+    fn new(
+        geometry: &Geometry,
+        settings: &Settings,
+        tangents: bool,
+    ) -> std::result::Result<Self, lesk_geometry::Error> {
         let mut polygons = polygons_of(geometry, settings.tessellation);
         polygons.turn_to_normals();
         let shading = polygons.shading(settings.normals, settings.edges)?;
         let mut vertices = polygons.vertices(&shading);
+        let tangents = if tangents { split(&mut vertices, &polygons.data().sizes) } else { Vec::new() };
         let cut = settings.interpolation == Interpolation::Barycentric && settings.shading != Mode::Flat;
         if !cut {
-            return Ok(Shaded { vertices, sizes: polygons.data().sizes.clone() });
+            return Ok(Shaded { vertices, sizes: polygons.data().sizes.clone(), tangents });
         }
         let mut triangles = Vec::new();
         for face in 0..polygons.face_count() {
@@ -209,7 +248,7 @@ impl Shaded {
             lesk_geometry::polygons::triangulate(&vertices.positions, corners, &mut triangles);
         }
         vertices.corners = triangles.as_flattened().to_vec();
-        Ok(Shaded { vertices, sizes: vec![3; triangles.len()] })
+        Ok(Shaded { vertices, sizes: vec![3; triangles.len()], tangents })
     }
 }
 

@@ -3,6 +3,7 @@
 use crate::classic::Classic;
 use crate::error::{Error, Result};
 use lesk_geometry::{EdgeRule, NormalRule};
+use lesk_scene::ShadowTerminator;
 use std::str::FromStr;
 
 /// Gives an enum names: `ALL`, `name` and `FromStr`.
@@ -114,6 +115,8 @@ pub struct Settings {
     pub quadrature: u32,
     /// Whether rays look for obstacles between a point and its lights.
     pub shadows: bool,
+    /// Where rays to lights start, and which lights a face sees; `None` is what the scene says.
+    pub shadow_terminator: Option<ShadowTerminator>,
     /// Whether faces that show their back are left out.
     pub cull: bool,
     /// The point of flat shading.
@@ -139,6 +142,7 @@ impl Default for Settings {
             supersampling: 1,
             quadrature: 16,
             shadows: false,
+            shadow_terminator: None,
             cull: false,
             flat_point: FlatPoint::default(),
             space: Space::default(),

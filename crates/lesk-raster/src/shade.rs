@@ -6,10 +6,10 @@ use crate::lights::{Source, at, sources};
 use crate::settings::{Settings, Space};
 use lesk_bsdf::kernels::{BLOCK, Block, Kernel};
 use lesk_bsdf::model::{Domain, Property};
-use lesk_geometry::{Ray, Surface, World};
+use lesk_geometry::{Detail, Ray, Surface, World};
 use lesk_image::tonemap::srgb_decode;
 use lesk_math::{CHANNELS, Color, Isa, Vec3};
-use lesk_scene::{MAX_PARAMS, Material, Scene};
+use lesk_scene::{MAX_PARAMS, Material, NormalMap, Scene, ShadowTerminator};
 use std::f32::consts::FRAC_1_PI;
 
 /// Surfaces that are shaded alike: one material, one light that they are.
@@ -29,6 +29,8 @@ pub(crate) struct Shader<'a> {
     eye: Vec3<f32>,
     renormalize: bool,
     space: Space,
+    /// Whether interpolated normals tell which lights an opaque face sees, and rays start raised.
+    smooth: bool,
     /// What is in the way of light, where shadows are wanted.
     obstacles: Option<&'a World>,
 }
@@ -56,19 +58,32 @@ impl<'a> Shader<'a> {
             eye,
             renormalize: settings.renormalize,
             space: settings.space,
+            smooth: settings.shadow_terminator.unwrap_or(scene.render.shadow_terminator) == ShadowTerminator::Hanika,
             obstacles,
         }
     }
 
+    /// Whether rays to lights want to start raised.
+    pub fn raises(&self) -> bool {
+        self.smooth && self.obstacles.is_some()
+    }
+
+    /// The material of a kind of surface, where materials count.
+    fn material(&self, kind: Kind) -> Option<&'a Material> {
+        kind.material.filter(|_| self.classic.is_none()).map(|m| &self.scene.materials[m as usize])
+    }
+
     /// Whether texture coordinates, and whether tangents matter to a kind of surface.
     pub fn needs(&self, kind: Kind) -> [bool; 2] {
-        match kind.material.filter(|_| self.classic.is_none()) {
-            Some(m) => {
-                let material = &self.scene.materials[m as usize];
-                [!material.bindings().is_empty(), !is_isotropic(material)]
-            }
+        match self.material(kind) {
+            Some(m) => [!m.bindings().is_empty() || m.normal_map().is_some(), !is_isotropic(m)],
             None => [false; 2],
         }
+    }
+
+    /// Whether a normal map bends the normals of a kind of surface.
+    pub fn is_mapped(&self, kind: Kind) -> bool {
+        self.material(kind).is_some_and(|m| m.normal_map().is_some())
     }
 
     /// Light towards the viewer, into `work.sum`. `back` says of vertices whether their face shows its back; other points
@@ -76,11 +91,14 @@ impl<'a> Shader<'a> {
     pub fn shade(&self, kind: Kind, back: Option<bool>, points: &mut Points, work: &mut Work) {
         work.sum.iter_mut().for_each(|row| row[..points.n].fill(0.0));
         let material = kind.material.map(|m| &self.scene.materials[m as usize]);
+        let transmits = self.classic.is_none() && material.is_some_and(Material::transmits);
         let sides = Sides {
-            transmits: self.classic.is_none() && material.is_some_and(Material::transmits),
+            transmits,
+            smooth: self.smooth && !transmits,
             two_sided: self.classic.is_some() || material.is_none_or(Material::two_sided),
             renormalize: self.renormalize,
             anisotropic: self.needs(kind)[1],
+            mapped: self.is_mapped(kind),
             classic: self.classic.is_some(),
             back,
         };
@@ -88,10 +106,13 @@ impl<'a> Shader<'a> {
             Some(_) => (0..points.n).map(|i| at(&points.ng, i)).collect(),
             None => Vec::new(),
         };
+        if let Some(map) = material.and_then(Material::normal_map).filter(|_| sides.mapped) {
+            self.bend(map, points);
+        }
         self.lanes.orient(points, work, self.eye.to_array(), sides);
         match (self.classic, material) {
             (Some(classic), _) => self.classic(classic, points, work),
-            (None, Some(material)) => self.model(material, points, work, sides.transmits),
+            (None, Some(material)) => self.model(material, points, work, transmits),
             (None, None) => {}
         }
         if let Some(light) = kind.light {
@@ -99,6 +120,30 @@ impl<'a> Shader<'a> {
                 let surface = Surface::at(at(&points.p, i), n);
                 let emitted = self.scene.lights.emitted(light, &surface, at(&work.wo, i));
                 (0..CHANNELS).for_each(|c| work.sum[c][i] += emitted.0[c]);
+            }
+        }
+    }
+
+    /// Bends normals by a map, as the path tracer does; `side` keeps them as they were.
+    fn bend(&self, map: &NormalMap, points: &mut Points) {
+        for i in 0..points.n {
+            let (p, ng) = (at(&points.p, i), at(&points.ng, i));
+            let ns = at(&points.ns, i).normalize();
+            // fails for NaN too
+            let ns = if ns.dot(ng) > 1e-4 { ns } else { ng };
+            let uv = [points.uv[0][i], points.uv[1][i]];
+            let surface = Surface { ns, uv, ..Surface::at(p, ng) };
+            let along = at(&points.along, i);
+            let tangent = if along == Vec3::ZERO { surface.frame().t } else { along.normalize() };
+            let bitangent = ns.cross(tangent).normalize() * points.hand[i];
+            let bent = map.normal(&surface, &Detail { uvs: [uv; 2], tangent, bitangent });
+            let wo = self.eye - p;
+            // bent away from the viewer it would show black
+            let usable = (bent.dot(wo) < 0.0) == (ng.dot(wo) < 0.0);
+            let bent = if usable { bent } else { ns };
+            for c in 0..3 {
+                points.side[c][i] = ns.to_array()[c];
+                points.ns[c][i] = bent.to_array()[c];
             }
         }
     }
@@ -148,19 +193,27 @@ impl<'a> Shader<'a> {
     /// Takes the light away from points that do not see it.
     fn darken(&self, source: &Source, points: &Points, work: &mut Work, transmits: bool) {
         let Some(world) = self.obstacles else { return };
+        let raised = self.classic.is_some() || self.smooth && !transmits;
         for i in 0..points.n {
             if (0..CHANNELS).all(|c| work.value[c][i] == 0.0) || work.alive[i] == 0.0 {
                 continue;
             }
-            let surface = Surface::at(at(&points.p, i), at(&points.ng, i));
+            let mut surface = Surface::at(at(&points.p, i), at(&points.ng, i));
+            if raised {
+                // on the side of the viewer, whatever the direction: what the face itself hides stays hidden
+                let start = if self.smooth { at(&points.origin, i) } else { surface.p };
+                (surface.p, surface.lift) = (start + surface.ng * surface.lift, 0.0);
+            }
             let wi = at(&work.wi, i);
             let ray = match source {
                 Source::Point(p, _) => Ray::to_point(&surface, (*p).into()),
                 Source::Parallel(..) => Ray::leaving(&surface, wi),
-                Source::Asked { .. } => match source.sample(self.scene, surface.p, surface.ng, transmits) {
-                    Some(sample) => sample.shadow_ray(&surface),
-                    None => continue,
-                },
+                Source::Asked { .. } => {
+                    match source.sample(self.scene, at(&points.p, i), at(&points.side, i), transmits) {
+                        Some(sample) => sample.shadow_ray(&surface),
+                        None => continue,
+                    }
+                }
             };
             if world.occluded(&ray) {
                 (0..CHANNELS).for_each(|c| work.value[c][i] = 0.0);
@@ -203,7 +256,8 @@ impl<'a> Shader<'a> {
     }
 }
 
-fn is_isotropic(material: &Material) -> bool {
+/// Whether its model does not know directions along the surface.
+pub(crate) fn is_isotropic(material: &Material) -> bool {
     let claims = material.model().model().claims;
     claims.iter().any(|c| c.property == Property::Isotropic && c.when.is_none())
         || material.model().model().domain == Domain::BothSides

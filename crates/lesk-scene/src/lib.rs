@@ -63,7 +63,7 @@ pub use camera::Camera;
 pub use description::SceneDescription;
 pub use error::{Place, Problem, SceneError};
 pub use material::{Binding, MAX_PARAMS, Material, NormalMap};
-pub use scene::{Film, Object, RenderSettings, Scene};
+pub use scene::{Film, Object, RenderSettings, Scene, ShadowTerminator};
 pub use schema::json_schema;
 pub use sensor::{MeasureSettings, Sensor};
 pub use tasks::{TASK_EDITION, Task, tasks};

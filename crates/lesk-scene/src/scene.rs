@@ -78,11 +78,47 @@ pub struct RenderSettings {
     pub split: Vec<String>,
     /// Whether the picture has albedo, normal, depth and ids.
     pub aovs: bool,
+    /// Where rays to lights start on faces with interpolated normals.
+    pub shadow_terminator: ShadowTerminator,
 }
 
 impl Default for RenderSettings {
     fn default() -> Self {
-        RenderSettings { spp: 64, max_depth: 16, roulette_depth: 4, seed: 0, split: Vec::new(), aovs: false }
+        RenderSettings {
+            spp: 64,
+            max_depth: 16,
+            roulette_depth: 4,
+            seed: 0,
+            split: Vec::new(),
+            aovs: false,
+            shadow_terminator: ShadowTerminator::default(),
+        }
+    }
+}
+
+/// How opaque faces with interpolated normals ask for light along the border of their own shadow.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum ShadowTerminator {
+    /// From a point raised to the surface that the faces stand for (hanika2021); the interpolated normal says which lights
+    /// can be seen.
+    #[default]
+    Hanika,
+    /// From the face; lights behind it are not seen, in whole blocks.
+    None,
+}
+
+impl ShadowTerminator {
+    /// The names that scene files and commands accept, the default first.
+    pub const NAMES: &[&str] = &["hanika", "none"];
+
+    /// Its name.
+    pub fn name(self) -> &'static str {
+        Self::NAMES[self as usize]
+    }
+
+    /// By name.
+    pub fn named(name: &str) -> Option<Self> {
+        [Self::Hanika, Self::None].into_iter().find(|s| s.name() == name)
     }
 }
 

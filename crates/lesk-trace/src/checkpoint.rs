@@ -36,6 +36,7 @@ impl Identity {
                 ("roulette_depth", render.roulette_depth.to_string()),
                 ("split", render.split.join("+")),
                 ("aovs", render.aovs.to_string()),
+                ("shadow_terminator", render.shadow_terminator.name().to_owned()),
             ],
         }
     }

@@ -22,7 +22,7 @@ use lesk_scene::{RenderSettings, Scene};
 
 /// Light along one camera ray, linear Rec.709 whose Y is cd/m²: one path, with the random numbers of `sampler`.
 pub fn radiance(scene: &Scene, settings: &RenderSettings, ray: Ray, sampler: &mut Sampler) -> [f32; 3] {
-    let limits = path::Limits { max_depth: settings.max_depth, roulette_depth: settings.roulette_depth };
+    let limits = path::Limits::of(settings);
     let light = path::trace(scene, limits, ray, sampler).radiance;
     std::array::from_fn(|c| light.0[c.min(lesk_math::CHANNELS - 1)])
 }

@@ -3,20 +3,30 @@
 use crate::split::{PathKind, SPLITS};
 use lesk_bsdf::Scatter;
 use lesk_bsdf::model::Domain;
-use lesk_geometry::{Ray, Surface};
+use lesk_geometry::{Hit, Ray, Surface};
 use lesk_image::Aov;
 use lesk_light::Receiver;
 use lesk_math::sobol::Sampler;
 use lesk_math::{Color, Frame, Vec3};
-use lesk_scene::{MAX_PARAMS, Material, Scene};
+use lesk_scene::{MAX_PARAMS, Material, RenderSettings, Scene, ShadowTerminator};
 
-/// How long paths may become.
+/// How long paths may become, and where they go on from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Limits {
     /// Scattering events at most; 0 shows lights only, 1 adds direct light.
     pub max_depth: u32,
     /// Scattering events after which dim paths end by chance (Russian roulette).
     pub roulette_depth: u32,
+    /// Whether rays leave opaque faces with interpolated normals from raised points.
+    pub raises: bool,
+}
+
+impl Limits {
+    /// What the settings say.
+    pub fn of(render: &RenderSettings) -> Limits {
+        let raises = render.shadow_terminator == ShadowTerminator::Hanika;
+        Limits { max_depth: render.max_depth, roulette_depth: render.roulette_depth, raises }
+    }
 }
 
 /// What one path found.
@@ -52,7 +62,12 @@ struct Last {
 
 /// A surface with its material, as seen from `wo`.
 struct Vertex<'a> {
+    /// Where rays leave from.
     surface: Surface,
+    /// Where light arrives: a point of the face, metres.
+    at: Vec3<f32>,
+    /// Tells the sides of the surface: its geometric normal, or the interpolated one where rays leave from raised points.
+    side: Vec3<f32>,
     number: u32,
     material: &'a Material,
     model: &'static dyn Scatter,
@@ -108,7 +123,12 @@ impl<'a> Path<'a> {
             if is_last && bounce > 0 {
                 return;
             }
-            let Some(vertex) = Vertex::new(self.scene, surface, -ray.d, &mut table) else { return };
+            let Some(mut vertex) = Vertex::new(self.scene, surface, -ray.d, &mut table) else { return };
+            if self.limits.raises && vertex.is_curved() {
+                vertex.raise(self.scene, &hit);
+            } else {
+                vertex.side = vertex.surface.ng;
+            }
             if is_last {
                 self.record_first(&vertex, Color::BLACK, ray.d, hit.t);
                 return;
@@ -235,6 +255,7 @@ impl<'a> Vertex<'a> {
         let number = scene.object(&surface).material?;
         let material: &Material = &scene.materials[number as usize];
         let behind = surface.ng.dot(wo) < 0.0;
+        let mut side = surface.ns;
         let uvs = if material.needs_detail() { detailed(scene, material, &mut surface, wo) } else { [surface.uv; 2] };
         if behind && material.domain() == Domain::Upper {
             if !material.two_sided() {
@@ -242,22 +263,39 @@ impl<'a> Vertex<'a> {
             }
             surface.ng = -surface.ng;
             surface.ns = -surface.ns;
+            side = -side;
         }
         // an interpolated normal that faces away from the viewer would leave a black edge: use the true one there
         if (surface.ns.dot(wo) > 0.0) != (surface.ng.dot(wo) > 0.0) {
             surface.ns = surface.ng;
+            side = surface.ng;
         }
         let frame = surface.frame();
         let params = material.params_at(uvs, table);
         let wo = frame.local_from_world(wo);
-        Some(Vertex { surface, number, material, model: material.model(), params, frame, wo })
+        Some(Vertex { surface, at: surface.p, side, number, material, model: material.model(), params, frame, wo })
+    }
+
+    /// Whether the surface is opaque and its interpolated normal is not that of its face.
+    #[inline]
+    fn is_curved(&self) -> bool {
+        self.side != self.surface.ng && self.material.domain() == Domain::Upper
+    }
+
+    /// Has rays leave from above the face, on the side of the viewer whatever their direction: what the face itself hides
+    /// stays hidden.
+    #[inline(never)]
+    fn raise(&mut self, scene: &Scene, hit: &Hit) {
+        let surface = &mut self.surface;
+        surface.p = scene.world.raised(surface, hit) + surface.ng * surface.lift;
+        surface.lift = 0.0;
     }
 
     #[inline]
     fn receiver(&self) -> Receiver {
         match self.material.domain() {
-            Domain::Upper => Receiver::opaque(self.surface.p, self.surface.ng),
-            Domain::BothSides | Domain::Sphere => Receiver::anywhere(self.surface.p),
+            Domain::Upper => Receiver::opaque(self.at, self.side),
+            Domain::BothSides | Domain::Sphere => Receiver::anywhere(self.at),
         }
     }
 
@@ -273,9 +311,9 @@ impl<'a> Vertex<'a> {
         }
     }
 
-    /// Whether shading and geometric normal agree on the side of `wi`; where they do not, light would leak.
+    /// Whether the normals that shade and that tell sides agree on the side of `wi`; where they do not, light would leak.
     fn agrees(&self, wi: Vec3<f32>, wi_local: Vec3<f32>) -> bool {
-        (self.surface.ng.dot(wi) > 0.0) == (wi_local.z > 0.0)
+        (self.side.dot(wi) > 0.0) == (wi_local.z > 0.0)
     }
 
     /// f |cos| and the density of drawing `wi`, if any light goes that way.

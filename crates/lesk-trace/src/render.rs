@@ -157,7 +157,7 @@ fn next_target(done: u64, settings: &Settings, elapsed: Duration) -> u64 {
 /// Brings every pixel of a tile to `target` samples; returns how many were added.
 fn render_tile(scene: &Scene, settings: &Settings, tile: Tile, pixels: &mut FilmTile, target: u64) -> u64 {
     let render = &settings.render;
-    let limits = Limits { max_depth: render.max_depth, roulette_depth: render.roulette_depth };
+    let limits = Limits::of(render);
     let layers: Vec<usize> = render.split.iter().filter_map(|name| layer(name)).collect();
     // both halves of the seed count
     let mut sampler = Sampler::new((render.seed ^ (render.seed >> 32).wrapping_mul(0x9e37_79b9)) as u32);

@@ -2,7 +2,7 @@
 
 use lesk::math::sobol::Sampler;
 use lesk::raster::{Frame, Interpolation, Raster, Settings};
-use lesk::scene::Scene;
+use lesk::scene::{Scene, ShadowTerminator};
 use std::sync::Arc;
 
 const SIZE: [u32; 2] = [160, 120];
@@ -39,7 +39,8 @@ intensity = "900 cd"
 fn both(scene: &Scene, settings: &Settings) -> (Frame, Vec<[f32; 3]>, Vec<u32>) {
     let mut raster = Raster::new(Arc::new(scene.clone()), settings).unwrap();
     let frame = raster.frame();
-    let traced = Scene { world: raster.world().unwrap(), ..scene.clone() };
+    let mut traced = Scene { world: raster.world().unwrap(), ..scene.clone() };
+    traced.render.shadow_terminator = settings.shadow_terminator.unwrap_or(scene.render.shadow_terminator);
     let mut sampler = Sampler::new(1);
     let (mut light, mut faces) = (Vec::new(), Vec::new());
     for (x, y) in (0..SIZE[1]).flat_map(|y| (0..SIZE[0]).map(move |x| (x, y))) {
@@ -95,15 +96,17 @@ const MODELS: [&str; 5] = [
 
 #[test]
 fn phong_shading_equals_the_direct_term_of_the_path_tracer() {
-    let coarse = Settings { tessellation: 12, interpolation: Interpolation::Barycentric, ..Settings::default() };
-    for model in MODELS {
+    let barycentric = Settings { tessellation: 12, interpolation: Interpolation::Barycentric, ..Settings::default() };
+    let terminators = [ShadowTerminator::None, ShadowTerminator::Hanika];
+    for (model, terminator) in MODELS.into_iter().flat_map(|m| terminators.map(|t| (m, t))) {
+        let coarse = Settings { shadow_terminator: Some(terminator), ..barycentric.clone() };
         for object in ["shape = \"sphere\"", "shape = \"cylinder\"\ntransform = [{ translate = [0, 0, -0.5] }]"] {
             let count = compare(&scene(model, object), &coarse);
             assert!(count > 500, "{model}: {count} pixels");
         }
         let pot = "shape = \"teapot\"\nlevel = 2\ntransform = [{ scale = [0.4, 0.4, 0.3] }, { rotate = \"30 deg\" }]";
         let shadowed = Settings { shadows: true, ..coarse.clone() };
-        assert!(compare(&scene(model, pot), &shadowed) > 500);
+        assert!(compare(&scene(model, pot), &shadowed) > 500, "{model}, {terminator:?}");
     }
 }
 

@@ -18,7 +18,14 @@ from lesk.figures._classic import phong_blinn, phong_table, shininess
 from lesk.figures._diagrams import auxiliary_edges, bilinear, crease_angle, vertex_normals
 from lesk.figures._exercises import led_bulb, sun
 from lesk.figures._microfacets import cook_torrance, fresnel, microfacet_terms, microfacets
-from lesk.figures._shading import highlight_crossing, mach_bands, missed_highlights, rotating_quad, shading_modes
+from lesk.figures._shading import (
+    highlight_crossing,
+    mach_bands,
+    missed_highlights,
+    rotating_quad,
+    shading_modes,
+    shadow_terminator,
+)
 from lesk.figures._surfaces import oren_nayar, reflection_types, ward_satin
 from lesk.figures._tables import f0_table, metallic_dial, timeline
 from lesk.figures._traced import appearance, light_paths, light_sources
@@ -51,6 +58,7 @@ _MAKERS = (
     missed_highlights,
     highlight_crossing,
     rotating_quad,
+    shadow_terminator,
 )
 
 

@@ -13,6 +13,7 @@ import numpy.typing as npt
 from lesk._raster import Classic, Shading, shade
 from lesk.figures._animation import Animation, Frame, drawn
 from lesk.figures._sheet import MARK, encoded, show
+from lesk.image import develop
 from lesk.plot._figure import CURVES, INK, Array, Plot, figure, style
 from lesk.scene import Scene, parse
 
@@ -87,7 +88,7 @@ def shading_modes(*, size: int = 200, level: int = 4) -> Plot:
     Plot
         A matplotlib figure.
     """
-    scene = _scene(_POT.format(level=level), (size, 3 * size // 4), eye=(0, -7, 2.6), target=(0.1, 0, 0.74), fov=26)
+    scene = _scene(_POT.format(level=level), (size, 3 * size // 4), eye=(0, -7, 2.6), target=(0.16, 0, 0.74), fov=28)
     with style():
         fig = figure(7.6, 2.6)
         for axes, mode in zip(fig.subplots(1, 3), MODES, strict=True):
@@ -130,12 +131,85 @@ def missed_highlights(*, size: int = 180, tessellation: int = 12) -> Plot:
     with style():
         fig = figure(6.4, 4.9)
         grid = fig.subplots(2, 3)
-        for line, (name, across) in zip(grid, (("between vertices", between), ("at a vertex", at)), strict=True):
+        rows = (("between vertices", between), ("at a vertex", at))
+        for row, (line, (name, across)) in enumerate(zip(grid, rows, strict=True)):
             for axes, mode in zip(line, MODES, strict=True):
                 picture = ball(mode, _light(across), size=size, tessellation=tessellation).rgb
-                title = _TITLES[mode] if line is grid[0] else ""
+                title = _TITLES[mode] if row == 0 else ""
                 show(axes, encoded(picture), title, f"max {picture.max():.3f}")
             line[0].set_ylabel(f"highlight {name}", fontsize=9)
+    return fig
+
+
+_LIT = """version = 1
+[camera]
+eye = [0, -5.2, 1.2]
+target = [0, 0, 0]
+fov = "26 deg"
+ev100 = "4.4 EV"
+[film]
+size = [{size}, {size}]
+[materials.clay]
+model = "lambert"
+reflectance = [0.55, 0.6, 0.7]
+[[objects]]
+material = "clay"
+{shape}
+[[lights]]
+type = "point"
+position = [4, -0.7, 1.6]
+intensity = "1500 cd"
+[[lights]]
+type = "directional"
+direction = [0.2, 1, -0.2]
+illuminance = "3 lx"
+"""
+
+
+def shadow_terminator(*, size: int = 190, tessellation: int = 14, level: int = 3) -> Plot:
+    """The border of a shadow on coarse faces.
+
+    A coarse ball and a coarse teapot with interpolated normals, lit from the side, with shadows by rays. A face that turns
+    from the light hides it, although its interpolated normals still see it: blocks. Rays that start above the face, on the
+    planes through its corners that its normals state (hanika2021), meet the surface that the faces stand for. Right the
+    true ball, and the teapot of finer faces.
+
+    Parameters
+    ----------
+    size : int
+        Pixels per side of a picture.
+    tessellation : int
+        Faces around the ball.
+    level : int
+        Cells along each side of a patch of the coarse teapot.
+
+    Returns
+    -------
+    Plot
+        A matplotlib figure.
+    """
+    ball = 'shape = "sphere"\nradius = "1 m"'
+    turned = 'transform = [{{ scale = 0.33 }}, {{ rotate = "-20 deg" }}, {{ translate = [-0.1, 0, -0.5] }}]'
+    pot = 'shape = "teapot"\nlevel = {level}\n' + turned
+    fine = {"ball": (ball, 512), "teapot": (pot.format(level=24), 64)}
+    coarse = {"ball": (ball, tessellation), "teapot": (pot.format(level=level), 64)}
+    columns = (
+        (coarse, "none", "rays from the faces"),
+        (coarse, "hanika", "raised rays"),
+        (fine, "hanika", "finer faces"),
+    )
+    with style():
+        fig = figure(6.6, 4.8)
+        grid = fig.subplots(2, 3)
+        for line, name in zip(grid, ("ball", "teapot"), strict=True):
+            for axes, (shapes, terminator, title) in zip(line, columns, strict=True):
+                shape, around = shapes[name]
+                scene = parse(_LIT.format(size=size, shape=shape))
+                picture = shade(scene, tessellation=around, shadows=True, shadow_terminator=terminator, supersampling=3)
+                show(
+                    axes, np.clip(develop(picture.rgb, ev100=scene.ev100 or 0.0), 0, 1), title if name == "ball" else ""
+                )
+            line[0].set_ylabel(name, fontsize=10)
     return fig
 
 

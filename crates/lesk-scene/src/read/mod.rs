@@ -10,7 +10,7 @@ mod sensors;
 
 use crate::description::SceneDescription;
 use crate::error::{Problem, SceneError};
-use crate::scene::{Film, RenderSettings, Scene};
+use crate::scene::{Film, RenderSettings, Scene, ShadowTerminator};
 use crate::schema::{self, ROOT};
 use fields::{Expected, Fields, Problems};
 use lesk_image::PixelFilter;
@@ -162,4 +162,6 @@ fn render(settings: &mut RenderSettings, fields: &Fields) {
     settings.seed = fields.integer("seed").map_or(settings.seed, |i| i as u64);
     settings.split = fields.texts("split");
     settings.aovs = fields.bool("aovs").unwrap_or(settings.aovs);
+    let terminator = fields.text("shadow_terminator").and_then(ShadowTerminator::named);
+    settings.shadow_terminator = terminator.unwrap_or(settings.shadow_terminator);
 }

@@ -1,6 +1,7 @@
 //! The table.
 
 use super::{Field, Kind, MEASURE, SENSOR, Section, Variants, field, needed};
+use crate::scene::ShadowTerminator;
 use Dimension::*;
 use lesk_quantities::Dimension;
 
@@ -76,6 +77,12 @@ pub(crate) const RENDER: &[Field] = &[
         "Light paths that are also written as layers of their own.",
     ),
     field("aovs", Kind::Bool, "Whether albedo, normal, depth and ids are written; false where absent."),
+    field(
+        "shadow_terminator",
+        Kind::Choice(ShadowTerminator::NAMES),
+        "Where rays to lights start on faces with interpolated normals: hanika, raised to the surface that the faces stand \
+         for; none, on the faces, whose shadows are blocks; hanika where absent.",
+    ),
 ];
 
 pub(crate) const MATERIAL_COMMON: &[Field] = &[

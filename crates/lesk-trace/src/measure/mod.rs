@@ -14,8 +14,8 @@ pub use glare::{Glare, GlareSource, guth_position_index};
 
 use crate::path::Limits;
 use crate::render::End;
-use lesk_scene::Scene;
 use lesk_scene::sensor::{Form, Sensor};
+use lesk_scene::{Scene, ShadowTerminator};
 use rounds::Batch;
 use std::ops::ControlFlow;
 use std::time::{Duration, Instant};
@@ -44,6 +44,8 @@ pub struct Settings {
     pub time: Option<Duration>,
     /// Most samples of a reading.
     pub max_samples: u64,
+    /// Where rays to lights start on faces with interpolated normals.
+    pub shadow_terminator: ShadowTerminator,
 }
 
 impl Settings {
@@ -56,11 +58,13 @@ impl Settings {
             seed: scene.render.seed,
             time: None,
             max_samples: 1 << 28,
+            shadow_terminator: scene.render.shadow_terminator,
         }
     }
 
     fn limits(&self) -> Limits {
-        Limits { max_depth: self.max_depth, roulette_depth: self.roulette_depth }
+        let raises = self.shadow_terminator == ShadowTerminator::Hanika;
+        Limits { max_depth: self.max_depth, roulette_depth: self.roulette_depth, raises }
     }
 }
 
