@@ -10,7 +10,7 @@ import pytest
 
 import lesk
 from lesk import figures
-from lesk.figures import _classic, _diagrams, _microfacets, _sheet, _surfaces, _tables, _traced
+from lesk.figures import _classic, _diagrams, _edges, _microfacets, _sheet, _surfaces, _tables, _traced
 from lesk.plot._figure import direction
 
 QUICK = {"resolution": 24, "samples": 1, "spp": 1, "size": 12, "frames": 2, "width": 60}
@@ -203,7 +203,7 @@ def test_bilinear_interpolation_of_one_quad_by_hand():
 
 def test_a_crease_is_the_angle_between_faces():
     roof = np.array([(0.0, 0.0), (1.0, 1.0), (2.0, 0.0), (3.0, 0.0)])
-    assert _diagrams.folds_of(roof) == pytest.approx([90, 45])
+    assert _edges.folds_of(roof) == pytest.approx([90, 45])
     text = shown(figures.crease_angle(limit_deg=40))
     assert "auxiliary: up to 40°" in text
 
@@ -260,3 +260,18 @@ def test_the_series_of_a_band_is_the_integral_of_plancks_law():
     power = np.pi * np.trapezoid(_exercises.spectral_radiance(5778, nm), nm)
     # Stefan and Boltzmann, CODATA 2018
     assert power / (5.670374419e-8 * 5778**4) == pytest.approx(_exercises.band_share(5778, 400, 700), rel=1e-6)
+
+
+@pytest.mark.parametrize(("limit", "real"), [(0, 36), (75, 24), (180, 0)])
+def test_the_figures_of_edges_shade_meshes_whose_edges_are_real_above_the_crease_angle(limit, real):
+    light, up = np.array((-0.5, -0.75, 0.55)), np.array((0.0, 0.0, 1.0))
+    # from straight above: the cap alone
+    values, mesh = _edges.shaded(_edges.prism(12), limit, tuple(light), up, np.array((0, 1.0, 0)), up, 1.1, (40, 40))
+    kinds = [lesk.mesh.KINDS[kind] for kind in mesh.kinds]
+    assert (kinds.count("real"), kinds.count("auxiliary")) == (real, 36 - real)
+    cap = values[values[..., 0] >= 0]
+    flat = 0.06 + 0.9 * 0.55 / np.linalg.norm(light)
+    if limit < 90:
+        assert cap == pytest.approx(flat, abs=1e-5)
+    else:
+        assert np.ptp(cap) > 0.3

@@ -15,7 +15,8 @@ from typing import Any, NamedTuple
 
 from lesk.figures._animation import Animation
 from lesk.figures._classic import phong_blinn, phong_table, shininess
-from lesk.figures._diagrams import auxiliary_edges, bilinear, crease_angle, vertex_normals
+from lesk.figures._diagrams import bilinear, vertex_normals
+from lesk.figures._edges import auxiliary_edges, crease_angle
 from lesk.figures._exercises import led_bulb, sun
 from lesk.figures._microfacets import cook_torrance, fresnel, microfacet_terms, microfacets
 from lesk.figures._shading import (
