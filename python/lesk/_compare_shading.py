@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import numpy.typing as npt
 
-from lesk import image
-from lesk._raster import NAMES, Shading, shade
+from lesk import _lesk, image
+from lesk._raster import NAMES, Shading, shade, wishes
 from lesk._render import Render, render
 from lesk.errors import ParameterError
 from lesk.scene import Scene, load, parse
@@ -25,6 +25,9 @@ MODES = ("flat", "gouraud", "phong")
 CURVES = {"flat": "#0072b2", "gouraud": "#d55e00", "phong": "#009e73"}
 TITLES = {"flat": "flat", "gouraud": "Gouraud", "phong": "Phong"}
 TESSELLATIONS = (6, 8, 12, 16, 24, 32, 48, 64, 96, 128)
+SUBDIVISIONS = (0, 1, 2, 3, 4)
+MOST_FACES = 2_000_000
+"""Of the finest mesh, which is the truth of a curve."""
 
 
 @dataclass(frozen=True)
@@ -38,7 +41,7 @@ class Comparison:
     errors: dict[str, float]
     """Root of the mean squared difference to the reference over its mean luminance, per mode."""
     curve: list[dict[str, Any]]
-    """`tessellation`, `faces` and `errors` per mode; empty where the scene has no curved shape."""
+    """`faces`, `errors` per mode, and `tessellation` of curved shapes or, in scenes of meshes alone, `subdivide`."""
 
     def facts(self) -> dict[str, Any]:
         """Give the numbers."""
@@ -85,7 +88,9 @@ def compare_shading(
     crease_angle_deg : float, optional
         As for `lesk.shade`.
     curve : bool
-        Whether to measure errors for 6 to 128 faces around curved shapes.
+        Whether to measure errors for 6 to 128 faces around curved shapes against the true shapes. A scene of meshes alone
+        is subdivided up to four times on the surface that its normals state, as far as 2 million faces; there the direct
+        light of the finest faces, path traced, is the truth.
 
     Returns
     -------
@@ -99,8 +104,16 @@ def compare_shading(
         scene = parse(scene) if isinstance(scene, str) and "\n" in scene else load(scene)
     options: dict[str, Any] = {"normals": normals, "crease_angle_deg": crease_angle_deg, "shadows": True}
 
-    def picture(mode: str, around: int, *, times: int = 1) -> Shading:
-        return shade(scene, shading=mode, tessellation=around, aovs=times > 1, frames=times, **options)
+    def picture(mode: str, around: int, *, times: int = 1, subdivide: int = 0) -> Shading:
+        return shade(
+            scene,
+            shading=mode,
+            tessellation=around,
+            subdivide=subdivide,
+            aovs=times > 1,
+            frames=times,
+            **options,
+        )
 
     reference = render(scene, spp=spp, max_depth=1)
     truth = reference.rgb.astype(float)
@@ -113,7 +126,18 @@ def compare_shading(
         own = {mode: _error(one.rgb, truth) for mode, one in several.items()}
         points.append({"tessellation": around, "faces": faces, "errors": own})
     if len({p["faces"] for p in points}) == 1:
+        faces = several["flat"].counts["faces"]
+        levels = [n for n in SUBDIVISIONS if faces * 4**n <= MOST_FACES]
         points = []
+        # a picture without light has no relative error
+        finest = levels[-1] if len(levels) > 1 and truth.any() else 0
+        if finest:
+            surfaces = _lesk.shaded_surfaces(scene, wishes(subdivide=finest, **options))
+            limit = render(surfaces, spp=spp, max_depth=1).rgb.astype(float)
+        for level in range(finest):
+            several = {mode: picture(mode, tessellation, subdivide=level) for mode in MODES}
+            own = {mode: _error(one.rgb, limit) for mode, one in several.items()}
+            points.append({"subdivide": level, "faces": several["flat"].counts["faces"], "errors": own})
     return Comparison(shaded, reference, errors, points)
 
 
@@ -142,9 +166,12 @@ def _figure(found: Comparison) -> Figure:
     for place, mode in zip(axes[1], MODES, strict=False):
         difference = (found.shaded[mode].rgb - truth).mean(axis=2) / white
         mapped = place.imshow(difference, cmap="RdBu_r", vmin=-0.25, vmax=0.25)
-        place.set_title(f"{TITLES[mode]} - reference, error {100 * found.errors[mode]:.2g} %", fontsize=10)
+        place.set_title(f"{TITLES[mode]} - reference, error {100 * found.errors[mode]:.3g} %", fontsize=10)
     if mapped is not None:
-        figure.colorbar(mapped, ax=axes[1, 2], shrink=0.85, label="share of white")
+        scale = axes[1, 0].inset_axes((0.04, 0.13, 0.42, 0.045))
+        figure.colorbar(mapped, cax=scale, orientation="horizontal", ticks=(-0.25, 0, 0.25))
+        scale.tick_params(labelsize=7, length=2, pad=1)
+        scale.set_title("share of white", fontsize=7, pad=2)
     _normals(axes[1, 3], found.shaded["phong"], "normals of pixels (Phong)")
     _faces(axes[2, 0], found.shaded["flat"], np.clip(shown["flat"], 0, 1))
     _normals(axes[2, 1], found.shaded["flat"], "normals of faces (flat)")
@@ -192,9 +219,7 @@ def _curve(figure: Figure, axes: npt.NDArray[Any], curve: Sequence[dict[str, Any
     place = figure.add_subplot(grid[2, 2:])
     if not curve:
         place.axis("off")
-        place.text(
-            0.5, 0.5, "no curved shape to tessellate:\nthe faces are those of the meshes", ha="center", va="center"
-        )
+        place.text(0.5, 0.5, "no curve: not asked for, or too many faces to subdivide", ha="center", va="center")
         return
     faces = [p["faces"] for p in curve]
     for mode in MODES:

@@ -72,6 +72,7 @@ def shade(
     normals: str = "given",
     crease_angle_deg: float | None = None,
     tessellation: int = 64,
+    subdivide: int = 0,
     renormalize: bool = True,
     supersampling: int = 1,
     quadrature: int = 16,
@@ -104,6 +105,9 @@ def shade(
         Edges with a larger angle between their faces are real, 0 to 180 degrees; without it, as the mesh stores them.
     tessellation : int
         Faces around a sphere, disk or cylinder, 3 to 4096.
+    subdivide : int
+        How often the faces of meshes are cut into four, 0 to 8. New points move to the curved surface that the normals of
+        the mesh state (Phong tessellation); sharp edges stay as they are.
     renormalize : bool
         Whether interpolated normals are brought to unit length.
     supersampling : int
@@ -142,7 +146,7 @@ def shade(
 
     References
     ----------
-    gouraud1971, phong1975, hanika2021
+    gouraud1971, phong1975, boubekeur2008, hanika2021
     """
     chosen = wishes(
         shading=shading,
@@ -151,6 +155,7 @@ def shade(
         normals=normals,
         crease_angle_deg=crease_angle_deg,
         tessellation=tessellation,
+        subdivide=subdivide,
         renormalize=renormalize,
         supersampling=supersampling,
         quadrature=quadrature,
@@ -172,6 +177,7 @@ def shade(
 _DEFAULTS: dict[str, Any] = {
     "crease_angle_deg": None,
     "tessellation": 64,
+    "subdivide": 0,
     "renormalize": True,
     "supersampling": 1,
     "quadrature": 16,
@@ -191,9 +197,9 @@ def wishes(**chosen: Any) -> dict[str, Any]:
     for name in ("threads", "frames"):
         if out[name] is not None and out[name] < 1:
             raise ParameterError(f"`{name}` is {out[name]}, but 1 or more is accepted")
-    for name in ("tessellation", "supersampling", "quadrature"):
-        if not 0 < out[name] < 2**31:
-            raise ParameterError(f"`{name}` is {out[name]}, but a number above 0 is accepted")
+    for name in ("tessellation", "subdivide", "supersampling", "quadrature"):
+        if not 0 <= out[name] < 2**31:
+            raise ParameterError(f"`{name}` is {out[name]}, but a whole number from 0 to {2**31 - 1} is accepted")
     return out
 
 

@@ -139,3 +139,44 @@ def test_mesh_names_what_is_wrong(tmp_path, capsys):
     assert main(["mesh", str(path), "--crease-angle", "270"]) == 2
     assert "0 to 180 deg" in capsys.readouterr().err
     assert main(["mesh", str(path), "-o", "edges.gif"]) == 2
+
+
+POT = """
+version = 1
+[camera]
+eye = [0.4, -5.2, 2.2]
+target = [0, 0, 0.7]
+fov = "36 deg"
+[film]
+size = [120, 80]
+[materials.red]
+model = "blinn_phong"
+shininess = 20
+[[objects]]
+shape = "teapot"
+level = 3
+material = "red"
+transform = { scale = 0.5 }
+[[lights]]
+type = "point"
+position = [-2.0, -4.0, 4.5]
+intensity = "2000 cd"
+"""
+
+
+def test_a_scene_of_meshes_is_subdivided_and_all_modes_approach_one_limit():
+    found = lesk.compare_shading(POT, spp=4, frames=1)
+    assert [p["subdivide"] for p in found.curve] == [0, 1, 2, 3]
+    faces = [p["faces"] for p in found.curve]
+    assert faces == [faces[0] * 4**n for n in range(4)]
+    for mode in ("flat", "gouraud", "phong"):
+        errors = [p["errors"][mode] for p in found.curve]
+        # first order in the size of faces, 1/8 of the first; edges of the picture and of shadows decide on single pixels
+        assert errors[3] < 0.5 * errors[0] and errors[3] < errors[2], (mode, errors)
+    assert lesk.compare_shading(POT, spp=1, frames=1, curve=False).curve == []
+
+
+def test_a_picture_without_light_has_no_curve():
+    away = POT.replace("target = [0, 0, 0.7]", "target = [0, -9, 0.7]")
+    found = lesk.compare_shading(away, spp=1, frames=1)
+    assert found.curve == [] and found.errors["flat"] == 0

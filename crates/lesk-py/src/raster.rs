@@ -21,6 +21,7 @@ pub struct ShadeWishes {
     /// Degrees; without it, edges are as stored.
     crease_angle_deg: Option<f64>,
     tessellation: u32,
+    subdivide: u32,
     renormalize: bool,
     supersampling: u32,
     quadrature: u32,
@@ -68,6 +69,7 @@ impl ShadeWishes {
             normals: self.normals.parse().map_err(|e| lesk_raster::Error::from_text(&e))?,
             edges: self.crease_angle_deg.map_or(EdgeRule::Stored, |a| EdgeRule::Crease(a.to_radians())),
             tessellation: self.tessellation,
+            subdivide: self.subdivide,
             renormalize: self.renormalize,
             supersampling: self.supersampling,
             quadrature: self.quadrature,

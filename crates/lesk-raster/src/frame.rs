@@ -371,9 +371,10 @@ impl Raster {
             (vec3(position(0), position(1), position(2)), n, uv, data.whole_tangent(index))
         };
         let i = points.n;
+        let origin = if gouraud { p } else { self.above(index, p, n) };
         for c in 0..3 {
             points.p[c][i] = p.to_array()[c];
-            points.origin[c][i] = p.to_array()[c];
+            points.origin[c][i] = origin.to_array()[c];
             points.ns[c][i] = n.to_array()[c];
             points.ng[c][i] = n.to_array()[c];
             points.tangent[c][i] = [x, y, z][c];
@@ -383,6 +384,16 @@ impl Raster {
         points.uv[0][i] = uv[0];
         points.uv[1][i] = uv[1];
         points.n += 1;
+    }
+}
+
+impl Raster {
+    /// The point of a face that is as high above its mean plane as the highest corner, on the side of the viewer: the point
+    /// itself may lie behind a bent face.
+    fn above(&self, face: usize, p: Vec3<f32>, n: Vec3<f32>) -> Vec3<f32> {
+        let side = if n.dot(self.view.eye - p) < 0.0 { -1.0 } else { 1.0 };
+        let height = |&v: &u32| (self.prepared.vertices[v as usize].p - p).dot(n) * side;
+        p + n * (side * self.prepared.face(face).iter().map(height).fold(0.0, f32::max))
     }
 }
 

@@ -47,6 +47,7 @@ mod settings;
 mod shade;
 #[cfg(target_arch = "x86_64")]
 mod small;
+mod subdivide;
 mod tangents;
 mod view;
 

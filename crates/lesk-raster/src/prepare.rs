@@ -3,6 +3,7 @@
 use crate::error::{Error, Result};
 use crate::settings::{Interpolation, Mode, Settings};
 use crate::shade::is_isotropic;
+use crate::subdivide::subdivide;
 use crate::tangents::{Tangent, split};
 use lesk_geometry::polygons::{Vertices, cylinder_polygons, grid_polygons, rectangle_polygons, sphere_polygons};
 use lesk_geometry::{Geometry, Mesh, MeshData, PolygonMesh, Transform, World, WorldBuilder};
@@ -237,15 +238,26 @@ impl Shaded {
         polygons.turn_to_normals();
         let shading = polygons.shading(settings.normals, settings.edges)?;
         let mut vertices = polygons.vertices(&shading);
-        let tangents = if tangents { split(&mut vertices, &polygons.data().sizes) } else { Vec::new() };
+        let mut sizes = polygons.data().sizes.clone();
+        for _ in 0..if geometry.mesh().is_some() { settings.subdivide } else { 0 } {
+            if vertices.corners.len() > MAX_CORNERS / 4 {
+                let faces = sizes.len();
+                let text = format!("`subdivide` is {}, which makes more faces of {faces} than fit", settings.subdivide);
+                return Err(lesk_geometry::Error::new(text));
+            }
+            subdivide(&mut vertices, &mut sizes);
+        }
+        let tangents = if tangents { split(&mut vertices, &sizes) } else { Vec::new() };
         let cut = settings.interpolation == Interpolation::Barycentric && settings.shading != Mode::Flat;
         if !cut {
-            return Ok(Shaded { vertices, sizes: polygons.data().sizes.clone(), tangents });
+            return Ok(Shaded { vertices, sizes, tangents });
         }
         let mut triangles = Vec::new();
-        for face in 0..polygons.face_count() {
-            let corners = &vertices.corners[polygons.face(face)];
+        let mut start = 0;
+        for size in sizes {
+            let corners = &vertices.corners[start..start + size as usize];
             lesk_geometry::polygons::triangulate(&vertices.positions, corners, &mut triangles);
+            start += size as usize;
         }
         vertices.corners = triangles.as_flattened().to_vec();
         Ok(Shaded { vertices, sizes: vec![3; triangles.len()], tangents })

@@ -107,6 +107,8 @@ pub struct Settings {
     pub edges: EdgeRule,
     /// Faces around a sphere, disk or cylinder: 3 to 4096.
     pub tessellation: u32,
+    /// How often the faces of meshes are cut into four, on the surface that their normals state: 0 to 8.
+    pub subdivide: u32,
     /// Whether interpolated normals are brought to unit length.
     pub renormalize: bool,
     /// Samples along each side of a pixel: 1 to 16.
@@ -138,6 +140,7 @@ impl Default for Settings {
             normals: NormalRule::default(),
             edges: EdgeRule::Stored,
             tessellation: 64,
+            subdivide: 0,
             renormalize: true,
             supersampling: 1,
             quadrature: 16,
@@ -158,6 +161,7 @@ impl Settings {
     pub(crate) fn check(&self) -> Result<()> {
         for (name, value, least, most) in [
             ("tessellation", self.tessellation, 3, 4096),
+            ("subdivide", self.subdivide, 0, 8),
             ("supersampling", self.supersampling, 1, 16),
             ("quadrature", self.quadrature, 1, 4096),
         ] {

@@ -3,7 +3,7 @@
 use crate::classic::{Classic, color};
 use crate::lanes::{Lanes, Points, Sides, Work};
 use crate::lights::{Source, at, sources};
-use crate::settings::{Settings, Space};
+use crate::settings::{Mode, Settings, Space};
 use lesk_bsdf::kernels::{BLOCK, Block, Kernel};
 use lesk_bsdf::model::{Domain, Property};
 use lesk_geometry::{Detail, Ray, Surface, World};
@@ -31,6 +31,8 @@ pub(crate) struct Shader<'a> {
     space: Space,
     /// Whether interpolated normals tell which lights an opaque face sees, and rays start raised.
     smooth: bool,
+    /// Whether points stand for whole faces, which may be bent: rays start above them.
+    flat: bool,
     /// What is in the way of light, where shadows are wanted.
     obstacles: Option<&'a World>,
 }
@@ -59,6 +61,7 @@ impl<'a> Shader<'a> {
             renormalize: settings.renormalize,
             space: settings.space,
             smooth: settings.shadow_terminator.unwrap_or(scene.render.shadow_terminator) == ShadowTerminator::Hanika,
+            flat: settings.shading == Mode::Flat,
             obstacles,
         }
     }
@@ -193,7 +196,7 @@ impl<'a> Shader<'a> {
     /// Takes the light away from points that do not see it.
     fn darken(&self, source: &Source, points: &Points, work: &mut Work, transmits: bool) {
         let Some(world) = self.obstacles else { return };
-        let raised = self.classic.is_some() || self.smooth && !transmits;
+        let raised = self.classic.is_some() || (self.smooth || self.flat) && !transmits;
         for i in 0..points.n {
             if (0..CHANNELS).all(|c| work.value[c][i] == 0.0) || work.alive[i] == 0.0 {
                 continue;
@@ -201,7 +204,7 @@ impl<'a> Shader<'a> {
             let mut surface = Surface::at(at(&points.p, i), at(&points.ng, i));
             if raised {
                 // on the side of the viewer, whatever the direction: what the face itself hides stays hidden
-                let start = if self.smooth { at(&points.origin, i) } else { surface.p };
+                let start = if self.smooth || self.flat { at(&points.origin, i) } else { surface.p };
                 (surface.p, surface.lift) = (start + surface.ng * surface.lift, 0.0);
             }
             let wi = at(&work.wi, i);

@@ -155,3 +155,23 @@ fn a_photometric_file_lights_a_floor_by_its_candela_over_the_square_of_the_dista
     }
     assert!(count > 5000, "{count}");
 }
+
+#[test]
+fn a_bent_face_in_flat_shading_does_not_hide_its_own_middle() {
+    let folder = tempfile::tempdir().unwrap();
+    for bend in [0.4, -0.4] {
+        let obj = format!("v -1 -1 0\nv 1 -1 {bend}\nv 1 1 0\nv -1 1 {bend}\nf 1 2 3 4\n");
+        std::fs::write(folder.path().join("saddle.obj"), obj).unwrap();
+        let saddle = "[[objects]]\nmaterial = \"m\"\nshape = \"mesh\"\nfile = \"saddle.obj\"\n";
+        let lamp = "[[lights]]\ntype = \"point\"\nposition = [0.5, 0.3, 3]\nintensity = \"100 cd\"\n";
+        let scene = scene(folder.path(), [0.0, -0.2, 5.0], "model = \"lambert\"", saddle, lamp);
+        for terminator in [lesk::scene::ShadowTerminator::Hanika, lesk::scene::ShadowTerminator::None] {
+            let [lit, shadowed] = [false, true].map(|shadows| {
+                let shadow_terminator = Some(terminator);
+                let settings = Settings { shading: Mode::Flat, shadows, shadow_terminator, ..Settings::default() };
+                draw(&scene, &settings).0.rgb
+            });
+            assert!(lit.iter().any(|v| *v > 0.0) && lit == shadowed, "{bend}, {terminator:?}");
+        }
+    }
+}
