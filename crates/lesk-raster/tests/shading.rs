@@ -300,3 +300,28 @@ fn an_area_light_by_quadrature_approaches_the_closed_form_of_a_disk() {
     // small and far: the integrand varies by 1 %, 256 points integrate it to better than a tenth of that
     assert!((middle / expected - 1.0).abs() < 1e-3, "{middle} {expected}");
 }
+
+#[test]
+fn a_supersampled_pixel_is_the_share_of_it_that_a_face_covers() {
+    // parallel light: the square has one luminance, 0.6/pi 100 lx, and a pixel at its border the covered share of it
+    let sun = "[[lights]]\ntype = \"directional\"\ndirection = [0, 0, -1]\nilluminance = \"100 lx\"\n";
+    let scene = from_above([0.0, 1.0, 0.0], "shape = \"rectangle\"\nwidth = \"1.37 m\"\nheight = \"1.61 m\"", sun);
+    let film = frame(&scene, &with(|s| s.supersampling = 8)).film().unwrap();
+    let planes = film.planes(&[]).unwrap();
+    let red = planes.planes().iter().find(|p| p.name == "R").unwrap();
+    let lesk_image::Samples::Float(red) = &red.samples else { panic!("floats") };
+    let pixel = 2.0 * 4.0 * 20f64.to_radians().tan() / 64.0;
+    let covered = |k: usize, half: f64| {
+        let low = (k as f64 - 32.0) * pixel;
+        ((low + pixel).min(half) - low.max(-half)).clamp(0.0, pixel) / pixel
+    };
+    let mut partly = 0;
+    for (k, value) in red.iter().enumerate() {
+        let share = covered(k % 64, 0.685) * covered(63 - k / 64, 0.805);
+        let found = f64::from(*value) / (0.6 / PI * 100.0);
+        // 8 samples across: a border is placed to 1/16 of a pixel, in x and in y
+        assert!((found - share).abs() <= 2.0 / 16.0 + 1e-5, "pixel {k}: {found} {share}");
+        partly += usize::from(found > 0.05 && found < 0.95);
+    }
+    assert!(partly > 50, "{partly}");
+}

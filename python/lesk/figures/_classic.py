@@ -9,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from lesk import models, terms
-from lesk.figures._sheet import Ball, Evaluator, outline, show
+from lesk.figures._sheet import Ball, Evaluator, half_vector, outline, show, undone
 from lesk.plot._figure import CURVES, INK, Array, Plot, direction, figure, style
 
 COLOR = (0.18, 0.38, 0.8)
@@ -124,9 +124,7 @@ def highlights(theta_i_deg: float, off_deg: npt.ArrayLike, plane: str, h: float)
     else:
         across = np.array([0.0, 1.0, 0.0])
         wo = np.cos(off)[..., np.newaxis] * direction(theta) + np.sin(off)[..., np.newaxis] * across
-    half = wi + wo
-    gamma = half[..., 2] / np.linalg.norm(half, axis=-1)
-    cosines = (terms.lobe.cos_mirror(wi, wo), gamma)
+    cosines = (terms.lobe.cos_mirror(wi, wo), half_vector(wi, wo)[..., 2])
     phong, blinn = (np.asarray(terms.lobe.cos_power(cosine, h), float) for cosine in cosines)
     return phong, blinn
 
@@ -140,12 +138,9 @@ class Highlight:
     def eval(self, wi: npt.ArrayLike, wo: npt.ArrayLike) -> Array:
         """cos^h / (pi cos(theta_i)), shape (N, 3)."""
         wi, wo = np.asarray(wi), np.asarray(wo)
-        half = wi + wo
-        half /= np.linalg.norm(half, axis=-1, keepdims=True)
-        cosine = half[:, 2] if self._blinn else terms.lobe.cos_mirror(wi, wo)
+        cosine = half_vector(wi, wo)[:, 2] if self._blinn else terms.lobe.cos_mirror(wi, wo)
         power = terms.lobe.cos_power(cosine, self._h)
-        safe = np.where(wi[:, 2] > 1e-6, wi[:, 2], np.inf)
-        return np.repeat((power / (np.pi * safe))[:, np.newaxis], 3, axis=1)
+        return undone(np.repeat(power[:, np.newaxis], 3, axis=1), wi)
 
 
 def phong_blinn(*, h: float = 50, theta_i_deg: float = 60, resolution: int = 220) -> Plot:

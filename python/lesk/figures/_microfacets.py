@@ -9,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from lesk import models, terms
-from lesk.figures._sheet import Ball, arrow, bare, show
+from lesk.figures._sheet import Ball, arrow, bare, half_vector, show, undone
 from lesk.plot._figure import CURVES, FAINT, INK, LIGHT, Array, Plot, direction, figure, style
 
 COPPER = (0.955, 0.638, 0.538)
@@ -161,19 +161,17 @@ class _Factor:
     def eval(self, wi: npt.ArrayLike, wo: npt.ArrayLike) -> Array:
         """The factor over pi cos(theta_i), shape (N, 3)."""
         wi, wo = np.asarray(wi), np.asarray(wo)
-        half = wi + wo
-        h = half / np.linalg.norm(half, axis=-1, keepdims=True)
+        half = half_vector(wi, wo)
         if self._name == "D":
             peak = terms.ndf.beckmann(np.array([0.0, 0.0, 1.0]), self._alpha, self._alpha)
             value = np.repeat((terms.ndf.beckmann(half, self._alpha, self._alpha) / peak)[:, np.newaxis], 3, axis=1)
         elif self._name == "F":
-            value = np.asarray(terms.fresnel.schlick(np.array(COPPER), np.sum(h * wi, axis=-1)), float)
+            value = np.asarray(terms.fresnel.schlick(np.array(COPPER), np.sum(half * wi, axis=-1)), float)
         else:
             up = wi[:, 2] > 1e-4
             value = np.zeros((len(wi), 3))
-            value[up] = terms.masking.v_groove(wi[up], wo[up], half[up])[:, np.newaxis]
-        safe = np.where(wi[:, 2] > 1e-4, wi[:, 2], np.inf)[:, np.newaxis]
-        return value / (np.pi * safe)
+            value[up] = terms.masking.v_groove(wi[up], wo[up], (wi + wo)[up])[:, np.newaxis]
+        return undone(value, wi)
 
 
 def cook_torrance(*, alpha: float = 0.3, resolution: int = 180) -> Plot:

@@ -76,6 +76,19 @@ def lit(surface: Evaluator, normals: Array, light: Array, tangents: Array | None
     return cast("Array", np.pi * f * np.maximum(wi[:, 2:], 0))
 
 
+def half_vector(wi: npt.ArrayLike, wo: npt.ArrayLike) -> Array:
+    """Unit vectors in the middle of two directions, shape (..., 3)."""
+    middle: Array = np.asarray(wi, float) + np.asarray(wo, float)
+    unit: Array = middle / np.linalg.norm(middle, axis=-1, keepdims=True)
+    return unit
+
+
+def undone(values: Array, wi: Array) -> Array:
+    """Divide values of shape (N, 3) by pi cos(theta_i), by which `lit` multiplies: it shows them as they are."""
+    safe = np.where(wi[:, 2:] > 1e-4, wi[:, 2:], np.inf)
+    return values / (np.pi * safe)
+
+
 def encoded(linear: npt.ArrayLike) -> Array:
     """Encode linear values as sRGB, clipped to 0 to 1."""
     from lesk.image import develop

@@ -95,16 +95,16 @@ _SHAPES = {
     "cube": 'shape = "cube"\nedge = "1 m"\ntransform = [{ rotate = "30 deg" }, { translate = [0, 0, 0.5] }]',
     "teapot": 'shape = "teapot"\nlevel = 16\ntransform = [{ scale = 0.29 }, { rotate = "-20 deg" }]',
 }
+_FAINT = '[environment]\ntype = "sky"\nluminance = "1.5 cd/m2"'
+"""A sky that keeps shadows from being black."""
 _LIGHTS = {
-    "point": '[[lights]]\ntype = "point"\nposition = [-1.6, -1.8, 2.6]\nintensity = "{power} cd"\n'
-    '[environment]\ntype = "sky"\nluminance = "1.5 cd/m2"',
+    "point": '[[lights]]\ntype = "point"\nposition = [-1.6, -1.8, 2.6]\nintensity = "{power} cd"\n' + _FAINT,
     "spot": '[[lights]]\ntype = "spot"\nposition = [-1.6, -1.8, 2.6]\ntarget = [0, 0, 0.5]\ninner = "9 deg"\n'
-    'outer = "13 deg"\nintensity = "{power} cd"\n[environment]\ntype = "sky"\nluminance = "1.5 cd/m2"',
-    "directional": '[[lights]]\ntype = "directional"\ndirection = [1.6, 1.8, -2.3]\nilluminance = "75 lx"\n'
-    '[environment]\ntype = "sky"\nluminance = "1.5 cd/m2"',
+    'outer = "13 deg"\nintensity = "{power} cd"\n' + _FAINT,
+    "directional": '[[lights]]\ntype = "directional"\ndirection = [1.6, 1.8, -2.3]\nilluminance = "75 lx"\n' + _FAINT,
     "area": '[[objects]]\nshape = "rectangle"\nwidth = "1.4 m"\nheight = "1.4 m"\n'
     'transform = {{ look_at = {{ from = [-1.6, -1.8, 2.6], to = [0, 0, 0.5] }} }}\nlight = {{ flux = "1900 lm" }}\n'
-    '[environment]\ntype = "sky"\nluminance = "1.5 cd/m2"',
+    + _FAINT,
     "environment": '[environment]\ntype = "sky"\nluminance = "17 cd/m2"\ncolor = [0.75, 0.88, 1.0]',
 }
 _MATERIALS = {
