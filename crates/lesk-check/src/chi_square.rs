@@ -239,3 +239,27 @@ pub fn worst(subject: &dyn Subject, region: &Region, rng: &mut Random, budget: &
     });
     worst_of(findings, stop)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::directions::from_degrees;
+    use crate::subject::Reference;
+    use lesk_bsdf::registry::find;
+
+    /// Light that leaves glass within 0.15 degrees of the horizon needs facets that face down: its density ends at
+    /// once. Expected: Gauss-Legendre in sqrt |cos| (200 cells of 8 points above that line, 16,000 azimuths) gives
+    /// 0.0755991 reflected and 0.9243032 transmitted; 4e7 draws 0.07561 and 0.92429.
+    #[test]
+    fn a_density_that_ends_near_the_horizon_integrates_to_what_other_rules_give() {
+        let glass = Reference(find("rough_dielectric").unwrap());
+        let case = Case::new(&glass, &[1.5, 0.2, 1.0]);
+        let wo = from_degrees([89.780_382_667_212_78, 66.063_600_817_546_17]);
+        for seed in 0..8 {
+            let mut rng = Random::new("ridge", seed);
+            let draws: Vec<Sample<f64>> = (0..200_000).map(|_| case.draw(wo, rng.unit3())).collect();
+            let [integral, error] = Bins::new(&case, wo, &draws, &mut rng).integral(200_000.0);
+            assert!((integral - 0.999_902_3).abs() <= error, "{integral} +- {error}");
+        }
+    }
+}

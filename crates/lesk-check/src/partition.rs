@@ -1,43 +1,41 @@
 //! The sphere cut into cells that are small where given directions lie close together.
 //!
-//! Cells are rectangles of Lambert's equal-area coordinates in polar form: radius r in [0, 1] and azimuth phi of each
-//! hemisphere, with |cos theta| = 1 - r^2 and dw = 2 r dr dphi. A function that is smooth on the sphere is smooth in
-//! them, the pole included, and 1 - |cos theta| and |cos theta| keep their digits at both ends.
+//! Cells are rectangles of an angle psi in [0, pi/2] and the azimuth phi of each hemisphere, with |cos theta| = cos^2 psi
+//! and dw = sin(2 psi) dpsi dphi. A function that is smooth on the sphere is smooth in them, the pole included;
+//! 1 - |cos theta| = sin^2 psi and |cos theta| keep their digits at both ends, and what happens close to the horizon
+//! (facets that turn away, masking) is as wide as the root of its cosines.
 
-use crate::directions::from_cosine;
 use lesk_bsdf::model::Domain;
-use lesk_math::Vec3;
-use std::f64::consts::TAU;
+use lesk_math::{Vec3, vec3};
+use std::f64::consts::{FRAC_PI_2, TAU};
 
 /// A place in the coordinates of the module.
 #[derive(Clone, Copy, Debug)]
 pub struct Place {
     /// Below the surface.
     pub below: bool,
-    /// Radius 0 to 1, azimuth 0 to 2 pi.
+    /// psi 0 to pi / 2, azimuth 0 to 2 pi.
     pub at: [f64; 2],
 }
 
 impl Place {
     /// The place of a unit direction.
     pub fn of(w: Vec3<f64>) -> Place {
-        // r^2 = 1 - |z| = (x^2 + y^2) / (1 + |z|), without cancellation near the pole
-        let r = (w.x.hypot(w.y) / (1.0 + w.z.abs()).sqrt()).clamp(0.0, 1.0);
+        // sin^2 psi = 1 - |z| = (x^2 + y^2) / (1 + |z|), without cancellation near the pole
+        let psi = (w.x.hypot(w.y) / (1.0 + w.z.abs()).sqrt()).atan2(w.z.abs().sqrt()).min(FRAC_PI_2);
         // rounding may carry a tiny negative azimuth to 2 pi
         let phi = w.y.atan2(w.x).rem_euclid(TAU).min(TAU);
-        Place { below: w.z < 0.0, at: [r, phi] }
+        Place { below: w.z < 0.0, at: [psi, phi] }
     }
 
     /// Its direction.
     pub fn direction(self) -> Vec3<f64> {
-        let [r, phi] = self.at;
-        let z = (1.0 - r) * (1.0 + r);
-        let mut w = from_cosine(z, phi);
-        // sin theta = r sqrt(2 - r^2) keeps its digits where 1 - z does not
-        let s = r * (2.0 - r * r).sqrt();
-        (w.x, w.y) = (s * phi.cos(), s * phi.sin());
-        w.z = if self.below { -z } else { z };
-        w
+        let [psi, phi] = self.at;
+        let (s, c) = psi.sin_cos();
+        let z = c * c;
+        // sin theta, which keeps its digits where 1 - z does not
+        let s = s * (1.0 + z).sqrt();
+        vec3(s * phi.cos(), s * phi.sin(), if self.below { -z } else { z })
     }
 }
 
@@ -46,7 +44,7 @@ impl Place {
 pub struct Cell {
     /// Below the surface.
     pub below: bool,
-    /// Lower ends of radius and azimuth.
+    /// Lower ends of psi and azimuth.
     pub lo: [f64; 2],
     /// Upper ends.
     pub hi: [f64; 2],
@@ -87,14 +85,14 @@ pub struct Partition {
 const MAX_DEPTH: usize = 80;
 
 impl Partition {
-    /// Halves the cells that hold more than `most` of the directions, or are larger than 1/2 in radius or a quarter
-    /// turn in azimuth.
+    /// Halves the cells that hold more than `most` of the directions, or are larger than half the range of psi or a
+    /// quarter turn in azimuth.
     pub fn new(domain: Domain, directions: &[Vec3<f64>], most: usize) -> Partition {
         let mut partition = Partition { cells: Vec::new(), nodes: Vec::new(), roots: [None; 2] };
         let sides: &[bool] = if domain == Domain::Upper { &[false] } else { &[false, true] };
         for &below in sides {
             let places = directions.iter().map(|&w| Place::of(w)).filter(|p| p.below == below).map(|p| p.at);
-            let cell = Cell { below, lo: [0.0, 0.0], hi: [1.0, TAU] };
+            let cell = Cell { below, lo: [0.0, 0.0], hi: [FRAC_PI_2, TAU] };
             let root = partition.grow(cell, places.collect(), most.max(1), 0);
             partition.roots[usize::from(below)] = Some(root);
         }
@@ -102,7 +100,7 @@ impl Partition {
     }
 
     fn grow(&mut self, cell: Cell, places: Vec<[f64; 2]>, most: usize, depth: usize) -> usize {
-        let size = [cell.hi[0] - cell.lo[0], (cell.hi[1] - cell.lo[1]) / TAU];
+        let size = [(cell.hi[0] - cell.lo[0]) / FRAC_PI_2, (cell.hi[1] - cell.lo[1]) / TAU];
         let coarse = size[0] > 0.5 || size[1] > 0.25;
         let axis = if coarse { usize::from(size[1] > 0.25) } else { axis_to_halve(&cell, &places) };
         if depth >= MAX_DEPTH || cell.is_tiny(axis) || !coarse && places.len() <= most {
@@ -150,15 +148,16 @@ fn axis_to_halve(cell: &Cell, places: &[[f64; 2]]) -> usize {
         let quartile = |q: usize| at.get(at.len() * q / 4).copied().unwrap_or(0.0);
         (quartile(3) - quartile(1)) / (cell.hi[axis] - cell.lo[axis])
     };
-    let (r, phi) = (spread(0), spread(1));
+    let (psi, phi) = (spread(0), spread(1));
     let middle = 0.5 * (cell.lo[0] + cell.hi[0]);
-    let longer = usize::from((cell.hi[1] - cell.lo[1]) * middle > cell.hi[0] - cell.lo[0]);
-    if r.max(phi) > 2.0 * r.min(phi) { usize::from(phi < r) } else { longer }
+    let longer = usize::from((cell.hi[1] - cell.lo[1]) * middle.sin() > cell.hi[0] - cell.lo[0]);
+    if psi.max(phi) > 2.0 * psi.min(phi) { usize::from(phi < psi) } else { longer }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::directions::from_cosine;
     use crate::random::Random;
 
     #[test]
