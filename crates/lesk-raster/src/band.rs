@@ -314,7 +314,7 @@ impl BandJob<'_> {
     }
 
     /// Where rays of light start from a point of a face.
-    fn raise(&self, points: &mut Points, i: usize, weighted: &Weighted) {
+    fn raise(&self, points: &mut Points, i: usize, face: u32, weighted: &Weighted) {
         let data = &self.raster.prepared;
         let p = at(&points.p, i);
         let side = if at(&points.ng, i).dot(self.raster.view.eye - p) < 0.0 { -1.0 } else { 1.0 };
@@ -322,10 +322,9 @@ impl BandJob<'_> {
             let vertex = &data.vertices[v as usize];
             (w, vertex.p.map(f64::from), vertex.n.map(f64::from) * side)
         };
-        let start = match self.raster.settings.shading {
-            Mode::Flat => p,
-            _ => lesk_geometry::raised(p.map(f64::from), weighted.iter().map(corner)).map(|x| x as f32),
-        };
+        let raised = lesk_geometry::raised(p.map(f64::from), weighted.iter().map(corner)).map(|x| x as f32);
+        // spans across a bent face pass behind the triangles that rays meet
+        let start = raised + at(&points.ng, i) * (side as f32 * data.depth(face as usize));
         (0..3).for_each(|c| points.origin[c][i] = start.to_array()[c]);
     }
 
@@ -351,7 +350,7 @@ impl BandJob<'_> {
         (0..2).for_each(|c| points.uv[c][i] = uv[c] as f32);
         surface.add(points, target);
         if self.shader.raises() {
-            self.raise(points, i, &buffers.whole);
+            self.raise(points, i, surface.face, &buffers.whole);
         }
         if surface.mapped {
             self.turn(points, i, surface, &buffers.whole);

@@ -158,6 +158,22 @@ impl Prepared {
         [x, y, z, if turn < 0.0 { -1.0 } else { 1.0 }]
     }
 
+    /// How far spans across a face may lie from the triangles that it is cut into, metres: half the twist of a quadrilateral,
+    /// the span of the heights of the corners for faces of more, 0 for flat faces.
+    pub fn depth(&self, index: usize) -> f32 {
+        let face = self.face(index);
+        if face.len() == 3 {
+            return 0.0;
+        }
+        let n = self.face_normal(index).map(|x| x as f32);
+        let height = |v: u32| (self.vertices[v as usize].p - self.vertices[face[0] as usize].p).dot(n);
+        if let &[a, b, c, d] = face {
+            return 0.5 * (height(a) - height(b) + height(c) - height(d)).abs();
+        }
+        let heights = || face.iter().map(|&v| height(v));
+        heights().fold(f32::MIN, f32::max) - heights().fold(f32::MAX, f32::min)
+    }
+
     /// The faces as a world for rays, one mesh per object, in the order of the scene's objects: what the path tracer needs
     /// to see the same surfaces with the same normals.
     pub fn world(&self) -> Result<World> {

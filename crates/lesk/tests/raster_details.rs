@@ -157,7 +157,7 @@ fn a_photometric_file_lights_a_floor_by_its_candela_over_the_square_of_the_dista
 }
 
 #[test]
-fn a_bent_face_in_flat_shading_does_not_hide_its_own_middle() {
+fn a_bent_face_does_not_hide_itself() {
     let folder = tempfile::tempdir().unwrap();
     for bend in [0.4, -0.4] {
         let obj = format!("v -1 -1 0\nv 1 -1 {bend}\nv 1 1 0\nv -1 1 {bend}\nf 1 2 3 4\n");
@@ -165,13 +165,14 @@ fn a_bent_face_in_flat_shading_does_not_hide_its_own_middle() {
         let saddle = "[[objects]]\nmaterial = \"m\"\nshape = \"mesh\"\nfile = \"saddle.obj\"\n";
         let lamp = "[[lights]]\ntype = \"point\"\nposition = [0.5, 0.3, 3]\nintensity = \"100 cd\"\n";
         let scene = scene(folder.path(), [0.0, -0.2, 5.0], "model = \"lambert\"", saddle, lamp);
-        for terminator in [lesk::scene::ShadowTerminator::Hanika, lesk::scene::ShadowTerminator::None] {
+        use lesk::scene::ShadowTerminator::{Hanika, None};
+        for (shading, terminator) in [(Mode::Flat, Hanika), (Mode::Flat, None), (Mode::Phong, Hanika)] {
             let [lit, shadowed] = [false, true].map(|shadows| {
                 let shadow_terminator = Some(terminator);
-                let settings = Settings { shading: Mode::Flat, shadows, shadow_terminator, ..Settings::default() };
+                let settings = Settings { shading, shadows, shadow_terminator, ..Settings::default() };
                 draw(&scene, &settings).0.rgb
             });
-            assert!(lit.iter().any(|v| *v > 0.0) && lit == shadowed, "{bend}, {terminator:?}");
+            assert!(lit.iter().any(|v| *v > 0.0) && lit == shadowed, "{bend}, {shading:?}, {terminator:?}");
         }
     }
 }
