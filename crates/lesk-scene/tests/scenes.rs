@@ -65,6 +65,20 @@ fn watts_become_lumens_by_their_spectrum_and_the_scene_says_so() {
 }
 
 #[test]
+fn a_spot_given_by_its_flux_says_its_peak_intensity() {
+    let spot = |amount: &str| {
+        let fields =
+            "type = \"spot\"\nposition = [0, 0, 2]\ndirection = [0, 0, -1]\nouter = \"30 deg\"\ninner = \"30 deg\"";
+        scene(&format!("[[lights]]\nname = \"beam\"\n{fields}\n{amount}")).notes
+    };
+    // a hard cone: 1000 lm / (2 pi (1 - cos 30 deg)) = 1187.95 cd
+    let notes = spot("flux = \"1000 lm\"");
+    let expected = "light `beam`: the cone concentrates 1000 lm to 1187.95 cd on its axis";
+    assert!(notes.iter().any(|n| n == expected), "{notes:?}");
+    assert!(spot("intensity = \"1000 cd\"").iter().all(|n| !n.contains("cone")));
+}
+
+#[test]
 fn colour_changes_the_ratios_of_a_light_and_not_its_strength() {
     for color in ["color = [1, 0.1, 0.02]", "temperature = \"2000 K\"", "spectrum = \"E\"", ""] {
         let text = format!("[[lights]]\ntype = \"point\"\nposition = [0, 0, 2]\nintensity = \"10 cd\"\n{color}");

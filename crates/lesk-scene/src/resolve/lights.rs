@@ -66,6 +66,10 @@ impl Resolver<'_> {
             self.problem(Problem::new(d.place, text));
             return None;
         }
+        if let (Ok(Light::Spot(spot)), true) = (&light, is_flux) {
+            let (flux, peak) = (d.emission.amount, spot.intensity().luminance());
+            self.note(format!("{about}: the cone concentrates {flux} to {peak:.2} cd on its axis"));
+        }
         self.check(d.place, &about, light)
     }
 
