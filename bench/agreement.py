@@ -68,6 +68,8 @@ def lamps() -> dict:
 
 LAMP = thing("rectangle", [1.6, 1.6], None, DOWN, move(-0.5, -0.5, 2.9), radiance=[900, 700, 500])
 
+CLOSE = ([0.3, -2.5, 0.6], [0, 0, 0], 44.0)
+
 SCENES = {
     "diffuse_point": scene(
         4,
@@ -142,6 +144,9 @@ SCENES = {
         environment=[200, 260, 340],
     ),
     "thousand_lights": lamps(),
+    # nothing but one body under a sky, close up: a refractive index off by 0.01 or an extinction by 0.1 is seen
+    "glass_close": scene(12, [thing("sphere", 1.0, "glass")], environment="map", camera=CLOSE),
+    "gold_close": scene(4, [thing("sphere", 1.0, "gold")], environment=[200, 260, 340], camera=CLOSE),
 }
 
 

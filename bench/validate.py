@@ -129,7 +129,7 @@ from the scenes of `bench/agreement.py`; `*.toml` are the same scenes for Lesk. 
 {spp} samples per pixel each.
 
 `tiles.csv`: per scene and tile of {side} x {side} pixels (row by row from the upper left) the mean of linear Rec.709 in
-cd/m2 and the variance of that mean, from the scatter of the pictures. `environment.exr`, which two scenes name, is not
+cd/m2 and the variance of that mean, from the scatter of the pictures. `environment.exr`, which scenes name, is not
 stored: it is the closed form `radiance_of_map` of `bench/agreement.py` at the centres of 512 x 256 texels.
 """
 
