@@ -220,6 +220,20 @@ CIE_SKIES = (
 )  # fmt: skip
 
 
+HOSEK_SKIES = {
+    (2, 20): 11218.3,
+    (2, 60): 15206.3,
+    (3, 40): 16227.2,
+    (5, 20): 16725.1,
+    (5, 60): 25499.1,
+}
+"""Illuminance of a horizontal plane by the skies of Hosek and Wilkie over a ground of 0.2, without the sun: turbidity,
+elevation of the sun in degrees. The authors' code (version 1.4a) was run for these, 360 to 719 nm, K_m 683.002 lm/W."""
+
+HOSEK_SUNS = {(2, 40): 76792.7, (3, 20): 60910.7, (6, 60): 72777.6}
+"""Illuminance of a plane perpendicular to the sun by its disk of 0.51 degrees, likewise."""
+
+
 def cie_sky(number: int, elevation_deg: float) -> float:
     """Horizontal illuminance over zenith luminance of a CIE general sky: the midpoint rule on 1000 x 1000 cells."""
     a, b, c, d, e = CIE_SKIES[number - 1]

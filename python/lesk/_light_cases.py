@@ -125,6 +125,7 @@ def cases() -> Iterator[Case]:
     yield from _surfaces()
     yield from _skies()
     yield from _cie_skies()
+    yield from _hosek_skies()
     yield from _glass()
     yield from _rooms()
 
@@ -254,6 +255,16 @@ def _cie_skies() -> Iterator[Case]:
     overcast = Case("CIE sky").sky(type="cie_sky", number=16, elevation="30 deg", luminance="1000 cd/m2")
     overcast.point("traditional overcast, horizontal: 7 pi / 9", 7000 * math.pi / 9, (0, 0, 0))
     yield overcast.point("traditional overcast, vertical", 0.396177 * 7000 * math.pi / 9, (0, 0, 0), (1, 0, 0))
+
+
+def _hosek_skies() -> Iterator[Case]:
+    for (turbidity, elevation), expected in exact.HOSEK_SKIES.items():
+        sky = Case("Hosek sky").sky(type="hosek_sky", turbidity=turbidity, elevation=f"{elevation} deg", ground=0.2)
+        yield sky.point(f"turbidity {turbidity}, sun at {elevation} deg, horizontal", expected, (0, 0, 0))
+    for (turbidity, elevation), expected in exact.HOSEK_SUNS.items():
+        sun = Case("Hosek sun").light("sun", turbidity=turbidity, elevation=f"{elevation} deg")
+        height = math.sin(math.radians(elevation))
+        yield sun.point(f"turbidity {turbidity}, at {elevation} deg, horizontal", expected * height, (0, 0, 0))
 
 
 def _glass() -> Iterator[Case]:

@@ -1,4 +1,4 @@
-r"""Luminaires: IES LM-63 and EULUMDAT files, read, integrated, converted and written.
+r"""Luminaires (IES LM-63 and EULUMDAT files, read, integrated, converted and written) and the cloudless sky.
 
 >>> import lesk
 >>> text = "IES:LM-63-2019\nTILT=NONE\n1 -1 1 2 1 1 2 0 0 0\n1 1.00001 9\n0 180\n0\n100 100\n"
@@ -21,11 +21,12 @@ import numpy as np
 import numpy.typing as npt
 
 from lesk import _lesk
+from lesk._sky import HosekSky
 from lesk.errors import FileError, ParameterError
 
 Array = npt.NDArray[np.float64]
 
-__all__ = ["REFLECTANCES", "ROOMS", "Luminaire", "parse", "read"]
+__all__ = ["REFLECTANCES", "ROOMS", "HosekSky", "Luminaire", "parse", "read"]
 
 ROOMS: list[list[int]]
 """Rooms of UGR tables: sizes across and along the line of sight, in heights of the luminaires above the eye."""

@@ -1,8 +1,9 @@
 //! The standard skies of CIE S 011:2003 / ISO 15469:2004, as pictures for an [`Environment`](crate::Environment).
 
+use crate::dome;
 use crate::error::LightError;
-use lesk_image::{Image, Transfer};
-use std::f64::consts::{FRAC_PI_2, PI, TAU};
+use lesk_image::Image;
+use std::f64::consts::FRAC_PI_2;
 
 /// Gradation (a, b) and indicatrix (c, d, e) of the fifteen types; CIE S 011:2003, table 1.
 const TYPES: [[f64; 5]; 15] = [
@@ -22,10 +23,6 @@ const TYPES: [[f64; 5]; 15] = [
     [-1.0, -0.15, 16.0, -3.0, 0.3],
     [-1.0, -0.15, 24.0, -2.8, 0.15],
 ];
-
-/// Rows and columns of the picture: a third of a degree.
-const ROWS: usize = 540;
-const COLUMNS: usize = 2 * ROWS;
 
 /// A CIE general sky: luminance relative to the zenith,
 /// L/L_z = f(χ) φ(Z) / (f(Z_s) φ(0)), φ(Z) = 1 + a exp(b / cos Z), f(χ) = 1 + c (exp(d χ) - exp(d π/2)) + e cos² χ.
@@ -48,13 +45,7 @@ impl CieSky {
         if !(1..=16).contains(&kind) {
             return Err(LightError::new(format!("CIE sky of type {kind} does not exist, 1 to 16 is accepted")));
         }
-        if !((0.0..=FRAC_PI_2 + 1e-12).contains(&elevation) && azimuth.is_finite()) {
-            return Err(LightError::new(format!(
-                "sun has the elevation {} deg, 0 to 90 deg is accepted",
-                elevation.to_degrees()
-            ))
-            .hint("CIE skies are skies of the day"));
-        }
+        dome::check_sun(elevation, azimuth, "CIE skies are skies of the day")?;
         Ok(CieSky { kind, zenith_distance: FRAC_PI_2 - elevation, azimuth })
     }
 
@@ -67,9 +58,7 @@ impl CieSky {
         let [a, b, c, d, e] = TYPES[self.kind as usize - 1];
         let gradation = |cos: f64| 1.0 + a * (b / cos).exp();
         let indicatrix = |chi: f64| 1.0 + c * ((d * chi).exp() - (d * FRAC_PI_2).exp()) + e * chi.cos().powi(2);
-        let (sin_s, cos_s) = self.zenith_distance.sin_cos();
-        let chi =
-            (cos_s * cos_z + sin_s * zenith_distance.sin() * (azimuth - self.azimuth).cos()).clamp(-1.0, 1.0).acos();
+        let chi = dome::cos_between([zenith_distance, azimuth], [self.zenith_distance, self.azimuth]).acos();
         indicatrix(chi) * gradation(cos_z) / (indicatrix(self.zenith_distance) * gradation(1.0))
     }
 
@@ -79,23 +68,7 @@ impl CieSky {
     /// # Errors
     /// A share that is not between 0 and 1.
     pub fn picture(&self, ground: f64) -> Result<Image, LightError> {
-        if !(0.0..=1.0).contains(&ground) {
-            return Err(LightError::new(format!("reflectance of the ground is {ground}, 0 to 1 is accepted")));
-        }
-        let mut data = Vec::with_capacity(3 * ROWS * COLUMNS);
-        let mut horizontal = 0.0;
-        for y in 0..ROWS / 2 {
-            let z = PI * (y as f64 + 0.5) / ROWS as f64;
-            for x in 0..COLUMNS {
-                let value = self.relative(z, TAU * ((x as f64 + 0.5) / COLUMNS as f64 - 0.5));
-                horizontal += value * z.cos() * z.sin();
-                data.extend([value as f32; 3]);
-            }
-        }
-        horizontal *= PI / ROWS as f64 * TAU / COLUMNS as f64;
-        // a diffuse ground: L = ρ E / π
-        let below = (ground * horizontal / PI) as f32;
-        data.resize(3 * ROWS * COLUMNS, below);
-        Image::new(COLUMNS as u32, ROWS as u32, 3, Transfer::Linear, data).map_err(|e| LightError::new(e.to_string()))
+        dome::check_ground(ground)?;
+        dome::picture(|z, azimuth| [self.relative(z, azimuth); 3], [ground; 3])
     }
 }

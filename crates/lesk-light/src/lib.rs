@@ -14,7 +14,7 @@
 //! ```
 //!
 //! - [`Light`]: [`Point`], [`Spot`], [`Projector`], [`Directional`], [`Area`], [`Luminaire`], [`Environment`], [`Sky`].
-//! - [`CieSky`], [`SunPosition`]: the sky and the sun by place and time.
+//! - [`CieSky`], [`HosekSky`], [`SunPosition`]: skies, and the sun by place and time.
 //! - [`EmissionMap`]: a picture that multiplies the luminance of an emissive mesh.
 //! - [`Lights`]: all lights of a scene; chooses one for a [`Receiver`], near and bright ones more often.
 //! - [`LightTree`]: that choice; its cost grows with the logarithm of the number of lights.
@@ -35,9 +35,11 @@ mod area;
 mod bounds;
 mod cie_sky;
 mod directional;
+mod dome;
 mod emission_map;
 mod environment;
 mod error;
+mod hosek_sky;
 mod light;
 mod lights;
 mod luminaire;
@@ -59,6 +61,7 @@ pub use directional::Directional;
 pub use emission_map::EmissionMap;
 pub use environment::{Environment, Up, rec709};
 pub use error::LightError;
+pub use hosek_sky::HosekSky;
 pub use light::Light;
 pub use lights::Lights;
 pub use luminaire::{Luminaire, Mounting};

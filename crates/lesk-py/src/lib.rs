@@ -14,6 +14,7 @@ mod raster;
 mod render;
 mod scenes;
 mod shaders;
+mod skies;
 mod supervise;
 mod terms;
 
@@ -49,6 +50,8 @@ mod _lesk {
     use crate::scenes::{PyScene, scene_schema};
     #[pymodule_export]
     use crate::shaders::{shader, shader_languages};
+    #[pymodule_export]
+    use crate::skies::PyHosekSky;
     #[pymodule_export]
     use crate::terms::{term, terms_json};
 

@@ -108,3 +108,43 @@ fn mistakes_are_told_with_their_place() {
         assert!(error.contains(message), "{text}: {error}");
     }
 }
+
+#[test]
+fn a_hosek_sky_and_its_sun_have_their_own_strength() {
+    let folder = Folder::new("hosek");
+    let scene = folder
+        .scene(
+            "[[lights]]\ntype = \"sun\"\nelevation = \"40 deg\"\nazimuth = \"90 deg\"\nturbidity = 2\n\
+             [environment]\ntype = \"hosek_sky\"\nelevation = \"40 deg\"\nazimuth = \"90 deg\"\nturbidity = 2\nground = 0.2\n",
+        )
+        .unwrap();
+    let [Light::Directional(sun), Light::Environment(sky)] = scene.lights.list() else { panic!() };
+    // the authors' code: 14034.7 lx; 6e-4 for the texels
+    assert!((sky.illuminance() / 14034.7 - 1.0).abs() < 6e-4, "{}", sky.illuminance());
+    // the authors' code, 360 to 720 nm in steps of 1 nm: see the test of lesk-light
+    assert!((sun.illuminance().luminance() / 76792.72 - 1.0).abs() < 1e-4, "{}", sun.illuminance().luminance());
+    assert!(sun.direction().x < -0.7);
+    assert!(scene.notes.iter().any(|n| n.contains("76793 lx perpendicular")), "{:?}", scene.notes);
+}
+
+#[test]
+fn mistakes_of_hosek_skies_are_told() {
+    let folder = Folder::new("hosek-mistakes");
+    let sky = |rest: &str| format!("[environment]\ntype = \"hosek_sky\"\nelevation = \"40 deg\"\n{rest}\n");
+    let sun = |rest: &str| format!("[[lights]]\ntype = \"sun\"\nelevation = \"40 deg\"\nturbidity = 2\n{rest}\n");
+    for (text, message) in [
+        (sky(""), "has no `turbidity`"),
+        (sky("turbidity = 0.5"), "`turbidity` is 0.5, a number from 1 to 10 is accepted"),
+        (sky("turbidity = 2\nground = 2"), "reflectance of the ground is 2"),
+        (sky("turbidity = 2\nground = [0.1, 0.2]"), "a list of 3 numbers"),
+        (sky("turbidity = 2\nilluminance = \"9 lx\""), "unknown key `illuminance`"),
+        (sun("illuminance = \"9 lx\""), "`illuminance` and `turbidity` are both there"),
+        (sun("color = [1, 1, 1]"), "`color` and `turbidity` are both there"),
+        (sun("time = \"x\""), "`elevation` and `time` are both there"),
+        ("[[lights]]\ntype = \"sun\"\nturbidity = 2\n".to_string(), "the sun has no place"),
+        ("[[lights]]\ntype = \"sun\"\nelevation = \"0 deg\"\nturbidity = 10\n".to_string(), "no light comes through"),
+    ] {
+        let error = folder.scene(&text).err().unwrap_or_else(|| panic!("accepted: {text}"));
+        assert!(error.contains(message), "{text}: {error}");
+    }
+}

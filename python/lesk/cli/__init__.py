@@ -12,6 +12,7 @@ COMMANDS = {
     "check": "Run the claims of a model, or of all.",
     "shader": "Write a model as shader source.",
     "light": "Read a luminaire file: flux, angles, glare, pictures, conversion.",
+    "sky": "Say what a cloudless sky and its sun give, or draw it.",
     "quantity": "Convert a quantity of light; every assumption is named.",
     "spectrum": "Say what a light is: colour, temperature, rendering, efficacy.",
     "render": "Render a scene.",

@@ -1,4 +1,4 @@
-"""Plots of models, terms and luminaires.
+"""Plots of models, terms, luminaires and skies.
 
 Every function gives a matplotlib figure that shows itself in a notebook and is saved with `savefig`; nothing touches
 matplotlib's global state. Light comes from the left; angles are degrees from the normal.
@@ -13,9 +13,23 @@ from lesk.plot._figure import Plot
 from lesk.plot._lobe3d import lobe3d
 from lesk.plot._luminaire import intensity, web
 from lesk.plot._polar import polar
+from lesk.plot._sky import sky
 from lesk.plot._slice import slice
 from lesk.plot._spectrum import observers, spectrum
 from lesk.plot._sphere import sphere
 from lesk.plot._term import term
 
-__all__ = ["Plot", "albedo", "intensity", "lobe3d", "observers", "polar", "slice", "spectrum", "sphere", "term", "web"]
+__all__ = [
+    "Plot",
+    "albedo",
+    "intensity",
+    "lobe3d",
+    "observers",
+    "polar",
+    "sky",
+    "slice",
+    "spectrum",
+    "sphere",
+    "term",
+    "web",
+]

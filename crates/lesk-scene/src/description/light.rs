@@ -170,6 +170,15 @@ pub enum EnvironmentKind {
         /// Luminance of the zenith, or the illuminance of a horizontal plane by the sky.
         emission: Emission,
     },
+    /// The cloudless sky of Hosek and Wilkie, in its own physical units.
+    HosekSky {
+        /// 1 to 10.
+        turbidity: f64,
+        /// Elevation and azimuth of the sun, as for a CIE sky.
+        sun: [f64; 2],
+        /// Reflectance of the ground, linear Rec.709.
+        ground: [f64; 3],
+    },
 }
 
 /// How strong an environment map is.

@@ -8,8 +8,9 @@ use crate::description::{
 };
 use crate::error::{Problem, list};
 use crate::schema::{AMOUNTS, AREA_LIGHT, COLORS, ENVIRONMENT, LIGHT};
-use lesk_light::{Moment, Mounting, SUN_DIAMETER, Spectrum, SunPosition, Up};
+use lesk_light::{HosekSky, Moment, Mounting, SUN_DIAMETER, Spectrum, SunPosition, Up};
 use lesk_math::Vec3;
+use lesk_quantities::{Quantity, Unit, colorspace};
 
 /// An entry of `lights`.
 pub(super) enum Read {
@@ -22,7 +23,10 @@ pub(super) fn light(node: &Node, problems: &mut Problems) -> Option<Read> {
     if kind == "luminaire" {
         return luminaire(&fields, problems).map(Read::Luminaire);
     }
-    let emission = emission(&fields, kind, problems);
+    let emission = match fields.number("turbidity") {
+        Some(turbidity) => sun_emission(&fields, turbidity, problems),
+        None => emission(&fields, kind, problems),
+    };
     let kind = match kind {
         "point" => LightKind::Point { position: fields.numbers("position")? },
         "directional" => {
@@ -152,6 +156,29 @@ fn sun(fields: &Fields, problems: &mut Problems) -> Option<[f64; 2]> {
     }
 }
 
+/// The direct sun of a cloudless sky.
+fn sun_emission(fields: &Fields, turbidity: f64, problems: &mut Problems) -> Option<Emission> {
+    let place = fields.place_of("turbidity");
+    if let Some(other) = ["illuminance"].iter().chain(&COLORS).find(|name| fields.has(name)) {
+        let text = format!("`{other}` and `turbidity` are both there, one of them is accepted");
+        problems
+            .add(Problem::new(fields.place_of(other), text).hint("turbidity gives the sun its strength and colour"));
+        return None;
+    }
+    // that the sun has no place is told with its direction
+    let [elevation, azimuth] = sun(fields, &mut Problems(vec![]))?;
+    let direct = HosekSky::new(turbidity, [0.0; 3], elevation, azimuth).map_err(|e| e.to_string()).and_then(|sky| {
+        let rgb = sky.sun_illuminance();
+        let lux = colorspace::luminance(rgb);
+        if lux <= 0.0 {
+            return Err("the sun stands so low that no light comes through".to_string());
+        }
+        let amount = Unit::parse("lx").and_then(|unit| Quantity::new(lux, unit)).map_err(|e| e.to_string())?;
+        Ok(Emission { amount, color: LightColor::Rgb(rgb), place })
+    });
+    direct.map_err(|e| problems.add(Problem::from_text(place, &e))).ok()
+}
+
 fn direction(fields: &Fields, problems: &mut Problems) -> Option<[f64; 3]> {
     let direction: [f64; 3] = fields.numbers("direction")?;
     if direction == [0.0; 3] {
@@ -227,6 +254,10 @@ pub(super) fn environment(node: &Node, problems: &mut Problems) -> Option<Enviro
         let sun = if needed || fields.has("elevation") { sun(&fields, problems) } else { Some([1.0, 0.0]) };
         let ground = if fields.has("ground") { fields.number("ground")? } else { 0.0 };
         EnvironmentKind::CieSky { number: fields.integer("number")? as u32, sun: sun?, ground, emission: emission? }
+    } else if kind == "hosek_sky" {
+        let sun = sun(&fields, problems);
+        let ground = if fields.has("ground") { fields.numbers("ground")? } else { [0.0; 3] };
+        EnvironmentKind::HosekSky { turbidity: fields.number("turbidity")?, sun: sun?, ground }
     } else {
         let strength = match fields.one_of(&["scale", "illuminance", "luminance"], problems) {
             Some("illuminance") => MapStrength::Illuminance(fields.si("illuminance")?),

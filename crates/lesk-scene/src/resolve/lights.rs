@@ -7,7 +7,9 @@ use crate::description::{
     MapStrength, Picture,
 };
 use crate::error::{Place, Problem};
-use lesk_light::{Area, CieSky, Directional, Environment, Light, LightError, Point, Sky, Spectrum, Spot, Up, rec709};
+use lesk_light::{
+    Area, CieSky, Directional, Environment, HosekSky, Light, LightError, Point, Sky, Spectrum, Spot, Up, rec709,
+};
 use lesk_math::{Color, Vec3, vec3};
 use lesk_quantities::{Dimension, colorspace};
 
@@ -109,6 +111,19 @@ impl Resolver<'_> {
                 };
                 let made = make();
                 self.check(d.place, "environment", made).map(Light::Environment)
+            }
+            EnvironmentKind::HosekSky { turbidity, sun, ground } => {
+                let made = HosekSky::new(*turbidity, *ground, sun[0], sun[1]).and_then(|sky| {
+                    let map = Environment::new(sky.picture()?, Color::splat(1.0), d.up, 0.0)?;
+                    Ok((map, colorspace::luminance(sky.sun_illuminance())))
+                });
+                let (map, direct) = self.check(d.place, "environment", made)?;
+                let lux = map.illuminance();
+                self.note(format!(
+                    "environment: the sky gives {lux:.0} lx on a horizontal plane; a light of type `sun` with this \
+                     turbidity adds {direct:.0} lx perpendicular to it"
+                ));
+                Some(Light::Environment(map))
             }
             EnvironmentKind::Map { image, rotation, strength } => {
                 let map = self.map(image, *rotation, *strength, d.up, d.place)?;

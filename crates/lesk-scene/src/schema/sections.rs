@@ -210,6 +210,7 @@ const AZIMUTH: Field =
 const LATITUDE: Field = field("latitude", ANGLE, "Of the place, north positive, instead of `elevation`.");
 const LONGITUDE: Field = field("longitude", ANGLE, "Of the place, east positive.");
 const TIME: Field = field("time", Kind::Text, "With its zone, for example \"2025-06-21T14:00+02:00\".");
+const TURBIDITY: Kind = Kind::Number(lesk_light::HosekSky::TURBIDITIES);
 
 /// The keys of which an emission needs exactly one.
 pub(crate) const AMOUNTS: [&str; 4] = ["flux", "intensity", "luminance", "illuminance"];
@@ -259,7 +260,22 @@ pub(crate) const LIGHT: Variants = Variants {
                 ILLUMINANCE,
             ],
         ),
-        ("sun", &[ELEVATION, AZIMUTH, LATITUDE, LONGITUDE, TIME, ILLUMINANCE]),
+        (
+            "sun",
+            &[
+                ELEVATION,
+                AZIMUTH,
+                LATITUDE,
+                LONGITUDE,
+                TIME,
+                ILLUMINANCE,
+                field(
+                    "turbidity",
+                    TURBIDITY,
+                    "Of the air, instead of `illuminance` and a colour: those of the direct sun in a `hosek_sky`.",
+                ),
+            ],
+        ),
         (
             "luminaire",
             &[
@@ -350,6 +366,22 @@ pub(crate) const ENVIRONMENT: Variants = Variants {
                 COLOR,
                 TEMPERATURE,
                 SPECTRUM,
+            ],
+        ),
+        (
+            "hosek_sky",
+            &[
+                needed("turbidity", TURBIDITY, "Of the air: 2 is a very clear sky, 3 a clear one, 6 a hazy one."),
+                ELEVATION,
+                AZIMUTH,
+                LATITUDE,
+                LONGITUDE,
+                TIME,
+                field(
+                    "ground",
+                    Kind::NumberOr(3),
+                    "Reflectance of the ground, a number or linear Rec.709, 0 to 1; it also brightens the sky; 0 where absent.",
+                ),
             ],
         ),
     ],
