@@ -11,6 +11,7 @@ CHAPTERS = {
     "camera": "[camera]",
     "film": "[film]",
     "render": "[render]",
+    "raster": "[raster]",
     "materials": "[materials.NAME]",
     "objects": "[[objects]]",
     "groups": "[groups.NAME]",

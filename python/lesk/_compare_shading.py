@@ -67,11 +67,14 @@ def compare_shading(
     tessellation: int = 24,
     spp: int = 64,
     frames: int = 5,
-    normals: str = "given",
-    crease_angle_deg: float | None = None,
+    normals: str | None = None,
+    crease_angle_deg: float | str | None = None,
     curve: bool = True,
 ) -> Comparison:
     """Compare the three modes of shading with the direct light of the exact surfaces.
+
+    Interpolation and normals are as the scene says under `[raster]`; its `classic` model, `space` and `supersampling`
+    have no counterpart in the reference and are left out.
 
     Parameters
     ----------
@@ -85,7 +88,7 @@ def compare_shading(
         How often to draw, for the median of their times.
     normals : str
         Vertex normals, as for `lesk.shade`.
-    crease_angle_deg : float, optional
+    crease_angle_deg : float or str
         As for `lesk.shade`.
     curve : bool
         Whether to measure errors for 6 to 128 faces around curved shapes against the true shapes. A scene of meshes alone
@@ -96,13 +99,20 @@ def compare_shading(
     -------
     Comparison
     """
-    if normals not in NAMES["normals"]:
+    if normals is not None and normals not in NAMES["normals"]:
         raise ParameterError(
             f"there is no rule `{normals}` for normals, but {', '.join(NAMES['normals'])} are accepted"
         )
     if not isinstance(scene, Scene):
         scene = parse(scene) if isinstance(scene, str) and "\n" in scene else load(scene)
-    options: dict[str, Any] = {"normals": normals, "crease_angle_deg": crease_angle_deg, "shadows": True}
+    options: dict[str, Any] = {
+        "normals": normals,
+        "crease_angle_deg": crease_angle_deg,
+        "shadows": True,
+        "classic": False,
+        "space": "linear",
+        "supersampling": 1,
+    }
 
     def picture(mode: str, around: int, *, times: int = 1, subdivide: int = 0, aovs: bool = False) -> Shading:
         return shade(

@@ -16,8 +16,10 @@ from lesk.errors import ParameterError
 from lesk.scene import Scene, load, parse
 
 NAMES: Mapping[str, Sequence[str]] = dict(_lesk.shading_names())
-"""The names that `shade` accepts for `shading`, `interpolation`, `correction`, `normals`, `flat_point` and `space`; the
-default first."""
+"""The names that `shade` accepts for `shading`, `interpolation`, `correction`, `normals`, `flat_point`, `space` and
+`shadow_terminator`, and `Classic` for `highlight`; the default first."""
+
+_COLORS, _NUMBERS, _HIGHLIGHT = _lesk.classic_defaults()
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -28,18 +30,18 @@ class Classic:
     (perpendicular to its direction) counts as C_L = E/pi: then k_D C_D is the albedo of a Lambert surface.
     """
 
-    ambient: Sequence[float] = (1.0, 1.0, 1.0)
+    ambient: Sequence[float] = tuple(_COLORS[0])
     """C_A, colour of the ambient light."""
-    diffuse: Sequence[float] = (1.0, 1.0, 1.0)
+    diffuse: Sequence[float] = tuple(_COLORS[1])
     """C_D, colour of the surface."""
-    specular: Sequence[float] = (1.0, 1.0, 1.0)
+    specular: Sequence[float] = tuple(_COLORS[2])
     """C_S, colour of the highlight."""
-    ka: float = 0.1
-    kd: float = 0.5
-    ks: float = 0.4
-    shininess: float = 50.0
+    ka: float = _NUMBERS[0]
+    kd: float = _NUMBERS[1]
+    ks: float = _NUMBERS[2]
+    shininess: float = _NUMBERS[3]
     """h, the exponent of the highlight."""
-    highlight: str = "phong"
+    highlight: str = _HIGHLIGHT
     """`phong`: beta lies between viewer and mirrored light; `blinn`: between normal and half vector."""
     lights: Sequence[tuple[Sequence[float], Sequence[float]]] = field(default_factory=tuple)
     """Directions towards lights, and their colours C_L; without any, the lights of the scene count."""
@@ -66,27 +68,29 @@ class Shading(Render):
 def shade(
     scene: str | Path | Scene,
     *,
-    shading: str = "phong",
-    interpolation: str = "bilinear",
-    correction: str = "perspective",
-    normals: str = "given",
-    crease_angle_deg: float | None = None,
-    tessellation: int = 64,
-    subdivide: int = 0,
-    renormalize: bool = True,
-    supersampling: int = 1,
-    quadrature: int = 16,
-    shadows: bool = False,
+    shading: str | None = None,
+    interpolation: str | None = None,
+    correction: str | None = None,
+    normals: str | None = None,
+    crease_angle_deg: float | str | None = None,
+    tessellation: int | None = None,
+    subdivide: int | None = None,
+    renormalize: bool | None = None,
+    supersampling: int | None = None,
+    quadrature: int | None = None,
+    shadows: bool | None = None,
     shadow_terminator: str | None = None,
-    cull: bool = False,
-    flat_point: str = "centroid",
-    space: str = "linear",
-    classic: Classic | Mapping[str, Any] | None = None,
-    aovs: bool = False,
+    cull: bool | None = None,
+    flat_point: str | None = None,
+    space: str | None = None,
+    classic: Classic | Mapping[str, Any] | bool | None = None,
+    aovs: bool | None = None,
     threads: int | None = None,
     frames: int = 1,
 ) -> Shading:
     """Shade a scene with a scanline rasteriser: direct light of every material, face by face.
+
+    What is not given is as the scene says under `[raster]`, and `aovs` and `shadow_terminator` under `[render]`.
 
     Parameters
     ----------
@@ -101,8 +105,8 @@ def shade(
     normals : str
         Vertex normals: `given` by the surface or file, else angle-weighted; `analytic`, of surfaces that know their
         own; `mean`, `area`, `angle`, `max1999`: of the faces around.
-    crease_angle_deg : float, optional
-        Edges with a larger angle between their faces are real, 0 to 180 degrees; without it, as the mesh stores them.
+    crease_angle_deg : float or str
+        Edges with a larger angle between their faces are real, 0 to 180 degrees; `stored`: as the mesh stores them.
     tessellation : int
         Faces around a sphere, disk or cylinder, 3 to 4096.
     subdivide : int
@@ -116,17 +120,18 @@ def shade(
         Points per light that has an area or fills the sky, 1 to 4096.
     shadows : bool
         Whether rays look for obstacles between a point and its lights.
-    shadow_terminator : str, optional
+    shadow_terminator : str
         On faces with interpolated normals, `hanika`: the normal says which lights are seen, and rays start from points
-        raised to the surface that the faces stand for; `none`: the face says, in blocks. Else what the scene says.
+        raised to the surface that the faces stand for; `none`: the face says, in blocks.
     cull : bool
         Whether faces that show their back are left out.
     flat_point : str
         The point of a face in flat shading: `centroid` or `first` corner. Its normal is that of the face.
     space : str
         `linear`: sums of light are light; `gamma`: they are codes of a screen, wrong on purpose.
-    classic : Classic or dict, optional
-        The classic local model for all objects, instead of their materials.
+    classic : Classic, dict or bool
+        The classic local model for all objects, instead of their materials and of what the scene says; True: with its
+        defaults; False: the materials.
     aovs : bool
         Whether to keep albedo, normal, depth and ids.
     threads : int, optional
@@ -174,46 +179,30 @@ def shade(
     return Shading(*_lesk.shade(scene, chosen))
 
 
-_DEFAULTS: dict[str, Any] = {
-    "crease_angle_deg": None,
-    "tessellation": 64,
-    "subdivide": 0,
-    "renormalize": True,
-    "supersampling": 1,
-    "quadrature": 16,
-    "shadows": False,
-    "shadow_terminator": None,
-    "cull": False,
-    "classic": None,
-    "aovs": False,
-    "threads": None,
-    "frames": 1,
-}
+_WISHES = [name for name in shade.__annotations__ if name not in ("scene", "return")]
 
 
 def wishes(**chosen: Any) -> dict[str, Any]:
-    """All settings for the core: those chosen, else the defaults."""
-    out = {**{name: known[0] for name, known in NAMES.items()}, **_DEFAULTS, **chosen}
+    """All settings for the core; what is not chosen is as the scene says."""
+    out = {**dict.fromkeys(_WISHES), "frames": 1, **chosen}
     for name in ("threads", "frames"):
         if out[name] is not None and out[name] < 1:
             raise ParameterError(f"`{name}` is {out[name]}, but 1 or more is accepted")
     for name in ("tessellation", "subdivide", "supersampling", "quadrature"):
-        if not 0 <= out[name] < 2**31:
+        if out[name] is not None and not 0 <= out[name] < 2**31:
             raise ParameterError(f"`{name}` is {out[name]}, but a whole number from 0 to {2**31 - 1} is accepted")
     return out
 
 
-def _classic(model: Classic | Mapping[str, Any] | None) -> dict[str, Any] | None:
-    if model is None:
-        return None
+def _classic(model: Classic | Mapping[str, Any] | bool | None) -> dict[str, Any] | bool | None:
+    if model is None or isinstance(model, bool):
+        return model
     if not isinstance(model, Classic):
         known = Classic.__dataclass_fields__
         for name in model:
             if name not in known:
                 raise ParameterError(f"the classic model has no `{name}`, but {', '.join(known)} are accepted")
         model = Classic(**model)
-    if model.highlight not in ("phong", "blinn"):
-        raise ParameterError(f"`highlight` is `{model.highlight}`, but phong, blinn are accepted")
     return {
         "ambient": _three("ambient", model.ambient),
         "diffuse": _three("diffuse", model.diffuse),
@@ -222,7 +211,7 @@ def _classic(model: Classic | Mapping[str, Any] | None) -> dict[str, Any] | None
         "kd": float(model.kd),
         "ks": float(model.ks),
         "shininess": float(model.shininess),
-        "blinn": model.highlight == "blinn",
+        "highlight": model.highlight,
         "lights": [(_three("direction", d), _three("light", c)) for d, c in model.lights],
     }
 

@@ -106,6 +106,95 @@ def test_render_has_a_raster_engine(scene, tmp_path, capsys):
     assert main([*words[:6], "--classic", "kd=0.5,ks=0.6,h=20,highlight=blinn"]) == 0
 
 
+STATED = (
+    SCENE
+    + """
+[raster]
+shading = "flat"
+tessellation = 12
+normals = "max1999"
+crease_angle = "40 deg"
+supersampling = 2
+cull = true
+flat_point = "first"
+interpolation = "barycentric"
+correction = "screen"
+renormalize = false
+quadrature = 4
+shadows = true
+subdivide = 0
+space = "gamma"
+[raster.classic]
+kd = 0.9
+ka = 0.0
+ks = 0.0
+"""
+)
+
+ASKED = {
+    "shading": "flat",
+    "tessellation": 12,
+    "normals": "max1999",
+    "crease_angle_deg": 40,
+    "supersampling": 2,
+    "cull": True,
+    "flat_point": "first",
+    "interpolation": "barycentric",
+    "correction": "screen",
+    "renormalize": False,
+    "quadrature": 4,
+    "shadows": True,
+    "subdivide": 0,
+    "space": "gamma",
+    "classic": {"kd": 0.9, "ka": 0.0, "ks": 0.0},
+}
+
+
+def test_a_scene_says_how_it_is_shaded_and_arguments_override_it(tmp_path, capsys):
+    asked = lesk.shade(SCENE, **ASKED)
+    stated = lesk.shade(STATED)
+    assert stated.counts == asked.counts
+    np.testing.assert_array_equal(stated.rgb, asked.rgb)
+    usual = lesk.shade(SCENE)
+    back = {
+        "shading": "phong",
+        "tessellation": 64,
+        "normals": "given",
+        "crease_angle_deg": "stored",
+        "supersampling": 1,
+        "cull": False,
+        "flat_point": "centroid",
+        "interpolation": "bilinear",
+        "correction": "perspective",
+        "renormalize": True,
+        "quadrature": 16,
+        "shadows": False,
+        "space": "linear",
+        "classic": False,
+    }
+    over = lesk.shade(STATED, **back)
+    assert over.counts == usual.counts
+    np.testing.assert_array_equal(over.rgb, usual.rgb)
+    # the same from the command line
+    path = tmp_path / "stated.toml"
+    path.write_text(STATED)
+    words = ["render", str(path), "-o", str(tmp_path / "a.exr"), "--engine", "raster", "--json"]
+    opposite = (
+        "--shading phong --tessellation 64 --normals given --crease-angle stored --supersampling 1 --no-cull "
+        "--flat-point centroid --interpolation bilinear --correction perspective --renormalize --quadrature 16 "
+        "--no-shadows --space linear --classic none"
+    )
+    for options, expected in (("", stated), (opposite, usual)):
+        assert main([*words, *options.split()]) == 0
+        assert json.loads(capsys.readouterr().out)["counts"] == expected.counts
+        np.testing.assert_array_equal(lesk.image.read(tmp_path / "a.exr"), expected.rgb)
+
+
+def test_options_of_the_rasteriser_are_refused_for_paths(scene, tmp_path, capsys):
+    assert main(["render", str(scene), "-o", str(tmp_path / "a.png"), "--crease-angle", "30"]) == 2
+    assert "`--crease-angle` is for the rasteriser\nhint: add `--engine raster`" in capsys.readouterr().err
+
+
 def test_compare_shading_orders_the_modes_by_their_errors(scene, tmp_path, capsys):
     out = tmp_path / "compare.png"
     words = ["compare-shading", str(scene), "-o", str(out), "--spp", "16", "--frames", "2", "--json"]

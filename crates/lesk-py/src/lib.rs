@@ -43,7 +43,7 @@ mod _lesk {
         quantity_parse, quantity_units, reflectance, rgb_convert, rgb_spaces, rgb_to_xyz, spectrum_names, xyz_to_rgb,
     };
     #[pymodule_export]
-    use crate::raster::{PyRaster, shade, shaded_surfaces, shading_names};
+    use crate::raster::{PyRaster, classic_defaults, shade, shaded_surfaces, shading_names};
     #[pymodule_export]
     use crate::render::{PyPicture, render};
     #[pymodule_export]

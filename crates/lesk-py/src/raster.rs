@@ -1,46 +1,65 @@
 //! Rasterising: one call per frame, and what it took.
 
 use crate::errors;
-use crate::render::{PyPicture, terminator};
+use crate::render::PyPicture;
 use crate::scenes::PyScene;
-use lesk_geometry::EdgeRule;
-use lesk_raster::{Classic, ClassicLight, Frame, Highlight, Raster, Settings};
-use lesk_scene::Scene;
+use lesk_geometry::{EdgeRule, NormalRule};
+use lesk_raster::{
+    Classic, ClassicLight, Correction, FlatPoint, Frame, Highlight, Interpolation, Mode, Raster, Settings, Space,
+};
+use lesk_scene::{Scene, ShadowTerminator};
 use numpy::{IntoPyArray, PyArray2, PyArrayMethods};
 use pyo3::prelude::*;
+use std::fmt::Display;
+use std::str::FromStr;
 use std::sync::Arc;
 
-/// What a caller chooses, all by name.
+/// What a caller chooses instead of the scene, all by name.
 #[derive(FromPyObject)]
 #[pyo3(from_item_all)]
 pub struct ShadeWishes {
-    shading: String,
-    interpolation: String,
-    correction: String,
-    normals: String,
-    /// Degrees; without it, edges are as stored.
-    crease_angle_deg: Option<f64>,
-    tessellation: u32,
-    subdivide: u32,
-    renormalize: bool,
-    supersampling: u32,
-    quadrature: u32,
-    shadows: bool,
-    /// Without it, what the scene says.
+    shading: Option<String>,
+    interpolation: Option<String>,
+    correction: Option<String>,
+    normals: Option<String>,
+    crease_angle_deg: Option<CreaseWish>,
+    tessellation: Option<u32>,
+    subdivide: Option<u32>,
+    renormalize: Option<bool>,
+    supersampling: Option<u32>,
+    quadrature: Option<u32>,
+    shadows: Option<bool>,
     shadow_terminator: Option<String>,
-    cull: bool,
-    flat_point: String,
-    space: String,
-    aovs: bool,
-    classic: Option<ClassicWishes>,
+    cull: Option<bool>,
+    flat_point: Option<String>,
+    space: Option<String>,
+    aovs: Option<bool>,
+    classic: Option<ClassicWish>,
     threads: Option<usize>,
     frames: u32,
 }
 
+/// The crease angle.
+#[derive(FromPyObject)]
+enum CreaseWish {
+    /// Degrees.
+    Angle(f64),
+    /// `stored`: edges are as the mesh stores them.
+    Word(String),
+}
+
 /// The classic local model.
 #[derive(FromPyObject)]
+enum ClassicWish {
+    /// False: the materials of the scene.
+    Wanted(bool),
+    Model(ClassicWishes),
+}
+
+/// Its numbers.
+#[derive(FromPyObject)]
 #[pyo3(from_item_all)]
-pub struct ClassicWishes {
+struct ClassicWishes {
     ambient: [f32; 3],
     diffuse: [f32; 3],
     specular: [f32; 3],
@@ -48,63 +67,82 @@ pub struct ClassicWishes {
     kd: f32,
     ks: f32,
     shininess: f32,
-    blinn: bool,
+    highlight: String,
     /// Directions and colours.
     lights: Vec<([f32; 3], [f32; 3])>,
 }
 
+/// What a name stands for, if one is given.
+pub(crate) fn named<T: FromStr<Err: Display>>(name: Option<&String>) -> PyResult<Option<T>> {
+    name.map(|name| name.parse().map_err(errors::parameter)).transpose()
+}
+
 impl ShadeWishes {
-    fn settings(&self) -> PyResult<Settings> {
-        self.chosen().map_err(errors::parameter).and_then(|settings| {
-            let shadow_terminator = terminator(self.shadow_terminator.as_deref())?;
-            Ok(Settings { shadow_terminator, ..settings })
-        })
-    }
-
-    fn chosen(&self) -> Result<Settings, lesk_raster::Error> {
+    /// The settings of the scene with these wishes.
+    fn settings(&self, scene: &Scene) -> PyResult<Settings> {
+        let usual = scene.raster.clone();
         Ok(Settings {
-            shading: self.shading.parse()?,
-            interpolation: self.interpolation.parse()?,
-            correction: self.correction.parse()?,
-            normals: self.normals.parse().map_err(|e| lesk_raster::Error::from_text(&e))?,
-            edges: self.crease_angle_deg.map_or(EdgeRule::Stored, |a| EdgeRule::Crease(a.to_radians())),
-            tessellation: self.tessellation,
-            subdivide: self.subdivide,
-            renormalize: self.renormalize,
-            supersampling: self.supersampling,
-            quadrature: self.quadrature,
-            shadows: self.shadows,
-            shadow_terminator: None,
-            cull: self.cull,
-            flat_point: self.flat_point.parse()?,
-            space: self.space.parse()?,
-            classic: self.classic.as_ref().map(ClassicWishes::model),
-            aovs: self.aovs,
+            shading: named(self.shading.as_ref())?.unwrap_or(usual.shading),
+            interpolation: named(self.interpolation.as_ref())?.unwrap_or(usual.interpolation),
+            correction: named(self.correction.as_ref())?.unwrap_or(usual.correction),
+            normals: named(self.normals.as_ref())?.unwrap_or(usual.normals),
+            edges: self.crease_angle_deg.as_ref().map_or(Ok(usual.edges), CreaseWish::rule)?,
+            tessellation: self.tessellation.unwrap_or(usual.tessellation),
+            subdivide: self.subdivide.unwrap_or(usual.subdivide),
+            renormalize: self.renormalize.unwrap_or(usual.renormalize),
+            supersampling: self.supersampling.unwrap_or(usual.supersampling),
+            quadrature: self.quadrature.unwrap_or(usual.quadrature),
+            shadows: self.shadows.unwrap_or(usual.shadows),
+            shadow_terminator: named(self.shadow_terminator.as_ref())?.or(usual.shadow_terminator),
+            cull: self.cull.unwrap_or(usual.cull),
+            flat_point: named(self.flat_point.as_ref())?.unwrap_or(usual.flat_point),
+            space: named(self.space.as_ref())?.unwrap_or(usual.space),
+            aovs: self.aovs.unwrap_or(usual.aovs),
+            classic: match &self.classic {
+                None => usual.classic,
+                Some(ClassicWish::Wanted(wanted)) => wanted.then(Classic::default),
+                Some(ClassicWish::Model(wishes)) => Some(wishes.model()?),
+            },
         })
     }
+}
 
-    /// The settings as attributes of a file.
-    fn attributes(&self) -> Vec<(&'static str, String)> {
-        let mut out = vec![
-            ("engine", "raster".to_owned()),
-            ("shading", self.shading.clone()),
-            ("interpolation", self.interpolation.clone()),
-            ("correction", self.correction.clone()),
-            ("normals", self.normals.clone()),
-            ("supersampling", self.supersampling.to_string()),
-            ("quadrature", self.quadrature.to_string()),
-            ("shadows", self.shadows.to_string()),
-            ("space", self.space.clone()),
-        ];
-        out.extend(self.crease_angle_deg.map(|a| ("creaseAngleDeg", a.to_string())));
-        out.extend(self.shadow_terminator.clone().map(|name| ("shadowTerminator", name)));
-        out
+/// The settings as attributes of a file.
+fn attributes(settings: &Settings, scene: &Scene) -> Vec<(&'static str, String)> {
+    let terminator = settings.shadow_terminator.unwrap_or(scene.render.shadow_terminator);
+    let mut out = vec![
+        ("engine", "raster".to_owned()),
+        ("shading", settings.shading.name().to_owned()),
+        ("interpolation", settings.interpolation.name().to_owned()),
+        ("correction", settings.correction.name().to_owned()),
+        ("normals", settings.normals.name().to_owned()),
+        ("supersampling", settings.supersampling.to_string()),
+        ("quadrature", settings.quadrature.to_string()),
+        ("shadows", settings.shadows.to_string()),
+        ("space", settings.space.name().to_owned()),
+        ("shadowTerminator", terminator.name().to_owned()),
+    ];
+    if let EdgeRule::Crease(angle) = settings.edges {
+        out.push(("creaseAngleDeg", angle.to_degrees().to_string()));
+    }
+    out
+}
+
+impl CreaseWish {
+    fn rule(&self) -> PyResult<EdgeRule> {
+        match self {
+            Self::Angle(deg) => Ok(EdgeRule::Crease(deg.to_radians())),
+            Self::Word(word) if word == "stored" => Ok(EdgeRule::Stored),
+            Self::Word(word) => {
+                Err(errors::parameter(format!("crease angle is `{word}`, but degrees or `stored` are accepted")))
+            }
+        }
     }
 }
 
 impl ClassicWishes {
-    fn model(&self) -> Classic {
-        Classic {
+    fn model(&self) -> PyResult<Classic> {
+        Ok(Classic {
             ambient: self.ambient,
             diffuse: self.diffuse,
             specular: self.specular,
@@ -112,13 +150,13 @@ impl ClassicWishes {
             kd: self.kd,
             ks: self.ks,
             shininess: self.shininess,
-            highlight: if self.blinn { Highlight::Blinn } else { Highlight::Phong },
+            highlight: self.highlight.parse().map_err(errors::parameter)?,
             lights: self
                 .lights
                 .iter()
                 .map(|&(direction, color)| ClassicLight { direction: direction.into(), color })
                 .collect(),
-        }
+        })
     }
 }
 
@@ -128,8 +166,8 @@ type Facts<'py> = (Vec<(&'static str, u64)>, Vec<f64>, Vec<String>, Option<Bound
 /// Shades a scene; `frames` draws it several times, for their times.
 #[pyfunction]
 pub fn shade<'py>(py: Python<'py>, scene: &PyScene, wishes: ShadeWishes) -> PyResult<(PyPicture, Facts<'py>)> {
-    let settings = wishes.settings()?;
     let scene = scene.0.clone();
+    let settings = wishes.settings(&scene)?;
     let pool = match wishes.threads {
         Some(n) => Some(rayon::ThreadPoolBuilder::new().num_threads(n).build().map_err(errors::parameter)?),
         None => None,
@@ -151,7 +189,8 @@ pub fn shade<'py>(py: Python<'py>, scene: &PyScene, wishes: ShadeWishes) -> PyRe
         ("samples", count.samples),
         ("evaluations", count.evaluations),
     ];
-    let picture = PyPicture::shaded(scene, film, seconds, wishes.attributes());
+    let attributes = attributes(&settings, &scene);
+    let picture = PyPicture::shaded(scene, film, seconds, attributes);
     let number = |h: &Option<lesk_raster::SampleHit>| h.map_or(0, |h| h.face + 1);
     let faces = match frame.hits.is_empty() {
         true => None,
@@ -190,8 +229,8 @@ pub struct PyRaster {
 impl PyRaster {
     #[new]
     fn new(py: Python<'_>, scene: &PyScene, wishes: ShadeWishes) -> PyResult<Self> {
-        let settings = wishes.settings()?;
         let scene = scene.0.clone();
+        let settings = wishes.settings(&scene)?;
         let raster = py.detach(|| Raster::new(scene, &settings)).map_err(errors::parameter)?;
         let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().map_err(errors::parameter)?;
         Ok(PyRaster { raster, frame: Frame::default(), pool })
@@ -208,8 +247,8 @@ impl PyRaster {
 /// The scene with its surfaces as the rasteriser sees them: faces and normals are those of the settings.
 #[pyfunction]
 pub fn shaded_surfaces(py: Python<'_>, scene: &PyScene, wishes: ShadeWishes) -> PyResult<PyScene> {
-    let settings = wishes.settings()?;
     let scene = scene.0.clone();
+    let settings = wishes.settings(&scene)?;
     let world = py.detach(|| Raster::new(scene.clone(), &settings)?.world()).map_err(errors::parameter)?;
     Ok(PyScene(Arc::new(Scene { world, ..(*scene).clone() })))
 }
@@ -217,13 +256,21 @@ pub fn shaded_surfaces(py: Python<'_>, scene: &PyScene, wishes: ShadeWishes) -> 
 /// The names that settings accept, by setting, the default first.
 #[pyfunction]
 pub fn shading_names() -> Vec<(&'static str, Vec<&'static str>)> {
-    use lesk_raster::{Correction, FlatPoint, Interpolation, Mode, Space};
     vec![
-        ("shading", Mode::ALL.iter().map(|x| x.name()).collect()),
-        ("interpolation", Interpolation::ALL.iter().map(|x| x.name()).collect()),
-        ("correction", Correction::ALL.iter().map(|x| x.name()).collect()),
-        ("normals", lesk_geometry::NormalRule::ALL.iter().map(|x| x.name()).collect()),
-        ("flat_point", FlatPoint::ALL.iter().map(|x| x.name()).collect()),
-        ("space", Space::ALL.iter().map(|x| x.name()).collect()),
+        ("shading", Mode::NAMES.to_vec()),
+        ("interpolation", Interpolation::NAMES.to_vec()),
+        ("correction", Correction::NAMES.to_vec()),
+        ("normals", NormalRule::NAMES.to_vec()),
+        ("flat_point", FlatPoint::NAMES.to_vec()),
+        ("space", Space::NAMES.to_vec()),
+        ("shadow_terminator", ShadowTerminator::NAMES.to_vec()),
+        ("highlight", Highlight::NAMES.to_vec()),
     ]
+}
+
+/// The classic local model as it is without wishes: colours, coefficients and exponent, highlight.
+#[pyfunction]
+pub fn classic_defaults() -> ([[f32; 3]; 3], [f32; 4], &'static str) {
+    let Classic { ambient, diffuse, specular, ka, kd, ks, shininess, highlight, lights: _ } = Classic::default();
+    ([ambient, diffuse, specular], [ka, kd, ks, shininess], highlight.name())
 }

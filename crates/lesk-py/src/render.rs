@@ -1,12 +1,13 @@
 //! Rendering.
 
+use crate::raster::named;
 use crate::scenes::PyScene;
 use crate::supervise::{Shared, supervise};
 use crate::{errors, image};
 use lesk_image::io::{self, Format, exr, png};
 use lesk_image::{Film, ImageError, ToneMapper, tonemap};
 use lesk_math::Isa;
-use lesk_scene::{Scene, ShadowTerminator};
+use lesk_scene::Scene;
 use lesk_trace::checkpoint::{self, Identity};
 use lesk_trace::{End, Progress, Settings};
 use numpy::PyArray3;
@@ -97,20 +98,12 @@ fn settings(scene: &Scene, wishes: &Wishes) -> PyResult<Settings> {
     render.seed = wishes.seed.unwrap_or(render.seed);
     render.max_depth = wishes.max_depth.unwrap_or(render.max_depth);
     render.aovs = wishes.aovs.unwrap_or(render.aovs);
-    render.shadow_terminator = terminator(wishes.shadow_terminator.as_deref())?.unwrap_or(render.shadow_terminator);
+    render.shadow_terminator = named(wishes.shadow_terminator.as_ref())?.unwrap_or(render.shadow_terminator);
     if let Some(split) = &wishes.split {
         render.split = split.clone();
     }
     let time = wishes.time.map(Duration::try_from_secs_f64).transpose().map_err(errors::parameter)?;
     Ok(Settings { render, time })
-}
-
-/// A way to handle the border of shadows, by name.
-pub(crate) fn terminator(name: Option<&str>) -> PyResult<Option<ShadowTerminator>> {
-    let Some(name) = name else { return Ok(None) };
-    let known = ShadowTerminator::NAMES.join(", ");
-    let unknown = || errors::parameter(format!("there is no shadow terminator `{name}`, but {known} are accepted"));
-    ShadowTerminator::named(name).map(Some).ok_or_else(unknown)
 }
 
 fn sample_count(film: &Film) -> u64 {

@@ -1,5 +1,6 @@
 //! One band of rows: which face each sample shows, then its light.
 
+use crate::Mode;
 use crate::clip::Clipped;
 use crate::frame::{Chunk, Placed, Raster, SampleHit, aov, corner_light};
 use crate::inside::{Line, Row, Triangle, Weighted, unclip};
@@ -8,7 +9,6 @@ use crate::lights::at;
 use crate::prepare::triangle_normal;
 use crate::samples::{Samples, Spot};
 use crate::scan::{Band, Crossing};
-use crate::settings::Mode;
 use crate::shade::{Kind, Shader};
 use lesk_bsdf::kernels::BLOCK;
 use lesk_math::{CHANNELS, Isa, Vec3};

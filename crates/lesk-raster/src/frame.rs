@@ -2,14 +2,14 @@
 
 use crate::band::{BandJob, Buffers};
 use crate::clip::{Clipped, clip};
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::lanes::{Points, Work};
 use crate::lights::at;
 use crate::prepare::{Prepared, Vertex};
 use crate::scan::centres;
-use crate::settings::{FlatPoint, Mode, Settings};
 use crate::shade::{Kind, Shader};
 use crate::view::{Screen, View};
+use crate::{FlatPoint, Mode, Settings};
 use lesk_bsdf::kernels::BLOCK;
 use lesk_geometry::World;
 use lesk_image::{Aov, Film, FilmSpec, Sample};
@@ -116,7 +116,7 @@ impl Raster {
     /// # Errors
     /// Settings out of range, analytic normals of a surface that has none, a film that is too large.
     pub fn new(scene: Arc<Scene>, settings: &Settings) -> Result<Self> {
-        settings.check()?;
+        settings.check().map_err(|problem| Error::from_text(&problem))?;
         let prepared = Prepared::new(&scene, settings)?;
         let view = View::new(&scene, settings.supersampling, prepared.extent)?;
         let obstacles = if settings.shadows { Some(prepared.world()?) } else { None };

@@ -4,9 +4,9 @@
 //! β along the right one and γ along the span; or barycentric coordinates. With perspective correction f/w and 1/w are
 //! interpolated, and divided.
 
+use crate::Correction;
 use crate::clip::Clipped;
 use crate::scan::{Crossing, cross, gamma};
-use crate::settings::Correction;
 use crate::view::{Screen, View};
 use lesk_math::Vec3;
 

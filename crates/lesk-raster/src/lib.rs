@@ -43,7 +43,6 @@ mod lights;
 mod prepare;
 mod samples;
 mod scan;
-mod settings;
 mod shade;
 #[cfg(target_arch = "x86_64")]
 mod small;
@@ -51,7 +50,8 @@ mod subdivide;
 mod tangents;
 mod view;
 
-pub use classic::{Classic, ClassicLight, Highlight};
 pub use error::{Error, Result};
 pub use frame::{Count, Frame, Raster, SampleHit};
-pub use settings::{Correction, FlatPoint, Interpolation, Mode, Settings, Space};
+pub use lesk_scene::raster::{
+    Classic, ClassicLight, Correction, FlatPoint, Highlight, Interpolation, Mode, RasterSettings as Settings, Space,
+};

@@ -1,10 +1,10 @@
 //! A scene as faces in world space, with the vertices that shading needs.
 
 use crate::error::{Error, Result};
-use crate::settings::{Interpolation, Mode, Settings};
 use crate::shade::is_isotropic;
 use crate::subdivide::subdivide;
 use crate::tangents::{Tangent, split};
+use crate::{Interpolation, Mode, Settings};
 use lesk_geometry::polygons::{Vertices, cylinder_polygons, grid_polygons, rectangle_polygons, sphere_polygons};
 use lesk_geometry::{Geometry, Mesh, MeshData, PolygonMesh, Transform, World, WorldBuilder};
 use lesk_math::{Vec3, vec3};

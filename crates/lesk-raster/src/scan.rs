@@ -277,8 +277,8 @@ pub(crate) fn cross(corners: &[Screen], y: u32, out: &mut Vec<Crossing>) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::Correction;
     use crate::inside::{Row, Weighted};
-    use crate::settings::Correction;
     use proptest::prelude::*;
 
     const SIDE: u32 = 24;

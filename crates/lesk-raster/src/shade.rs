@@ -1,9 +1,9 @@
 //! Light at points: the direct term of every material, or the classic local model.
 
-use crate::classic::{Classic, color};
+use crate::classic::{ambient_term, color, light_term};
 use crate::lanes::{Lanes, Points, Sides, Work};
 use crate::lights::{Source, at, sources};
-use crate::settings::{Mode, Settings, Space};
+use crate::{Classic, ClassicLight, Mode, Settings, Space};
 use lesk_bsdf::kernels::{BLOCK, Block, Kernel};
 use lesk_bsdf::model::{Domain, Property};
 use lesk_geometry::{Detail, Ray, Surface, World};
@@ -42,9 +42,8 @@ impl<'a> Shader<'a> {
         let isa = Isa::current();
         let classic = settings.classic.as_ref();
         let own = |c: &Classic| {
-            let light = |l: &crate::classic::ClassicLight| {
-                Source::Parallel(l.direction.normalize().to_array(), color(|c| l.color[c]).0)
-            };
+            let light =
+                |l: &ClassicLight| Source::Parallel(l.direction.normalize().to_array(), color(|c| l.color[c]).0);
             c.lights.iter().map(light).collect()
         };
         let sources = match classic {
@@ -175,7 +174,7 @@ impl<'a> Shader<'a> {
 
     fn classic(&self, classic: &Classic, points: &Points, work: &mut Work) {
         let bridge = if classic.lights.is_empty() { FRAC_1_PI } else { 1.0 };
-        let mut sums = [classic.ambient_term(); BLOCK];
+        let mut sums = [ambient_term(classic); BLOCK];
         for source in &self.sources {
             // the model knows no face, so neither do the lights
             source.ask(self.scene, &self.lanes, points, work, true);
@@ -185,7 +184,7 @@ impl<'a> Shader<'a> {
                 (0..CHANNELS).for_each(|c| light.0[c] = work.value[c][i] * bridge);
                 // not brought to unit length again where that is not wanted
                 let n = at(&points.ns, i) * work.length[i];
-                *sum = *sum + classic.light_term(n, at(&work.wi, i), at(&work.wo, i), light);
+                *sum = *sum + light_term(classic, n, at(&work.wi, i), at(&work.wo, i), light);
             }
         }
         for (i, sum) in sums[..points.n].iter().enumerate() {

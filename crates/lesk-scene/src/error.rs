@@ -46,6 +46,13 @@ impl Problem {
         self
     }
 
+    /// A word that is not in a list, with the nearest one.
+    pub(crate) fn unknown_name(what: &str, given: &str, known: &[&str]) -> Self {
+        let text = format!("there is no {what} `{}`, but {} are accepted", shown(given), known.join(", "));
+        let near = nearest(&given.chars().take(64).collect::<String>(), known.iter().copied());
+        Problem::new(Place::NONE, text).hint(near.map_or(String::new(), |name| format!("did you mean `{name}`?")))
+    }
+
     /// A problem from an error text whose hint, if any, follows on a line of its own.
     pub(crate) fn from_text(place: Place, text: &str) -> Self {
         match text.split_once("\nhint: ") {
@@ -54,6 +61,16 @@ impl Problem {
         }
     }
 }
+
+/// Message and hint, without the place.
+impl fmt::Display for Problem {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.message)?;
+        if self.hint.is_empty() { Ok(()) } else { write!(f, "\nhint: {}", self.hint) }
+    }
+}
+
+impl std::error::Error for Problem {}
 
 /// All problems of a scene, in the order of their places.
 #[derive(Clone, Debug, PartialEq)]

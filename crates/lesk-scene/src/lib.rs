@@ -36,6 +36,7 @@
 //! - [`description`]: the same as plain structures, for programs; [`SceneDescription::build`] gives the scene.
 //! - [`Scene`]: what a tracer needs: world, objects, materials, lights, camera, film, settings.
 //! - [`Material::params`]: a model's parameter table at a point of a surface.
+//! - [`raster`]: how it is rasterised, by name.
 //! - [`sensor`]: where light is measured, and [`tasks`]: the rows of EN 12464-1 it is checked against.
 //! - [`json_schema`]: what a file may contain, from the table that the reader itself checks.
 //!
@@ -52,6 +53,8 @@ mod camera;
 pub mod description;
 mod error;
 mod material;
+mod named;
+pub mod raster;
 mod read;
 mod resolve;
 mod scene;
@@ -63,6 +66,7 @@ pub use camera::Camera;
 pub use description::SceneDescription;
 pub use error::{Place, Problem, SceneError};
 pub use material::{Binding, MAX_PARAMS, Material, NormalMap};
+pub use raster::RasterSettings;
 pub use scene::{Film, Object, RenderSettings, Scene, ShadowTerminator};
 pub use schema::json_schema;
 pub use sensor::{MeasureSettings, Sensor};

@@ -1,6 +1,7 @@
 //! A scene that can be traced: everything looked up, checked and built.
 
-use crate::{Camera, Material, MeasureSettings, Sensor};
+use crate::named::named;
+use crate::{Camera, Material, MeasureSettings, RasterSettings, Sensor};
 use lesk_geometry::{Surface, World};
 use lesk_image::PixelFilter;
 use lesk_light::Lights;
@@ -17,6 +18,8 @@ pub struct Scene {
     pub film: Film,
     /// How to render, unless the caller says otherwise.
     pub render: RenderSettings,
+    /// How to rasterise, unless the caller says otherwise.
+    pub raster: RasterSettings,
     /// Where light is measured.
     pub sensors: Vec<Sensor>,
     /// How it is measured, unless the caller says otherwise.
@@ -107,20 +110,7 @@ pub enum ShadowTerminator {
     None,
 }
 
-impl ShadowTerminator {
-    /// The names that scene files and commands accept, the default first.
-    pub const NAMES: &[&str] = &["hanika", "none"];
-
-    /// Its name.
-    pub fn name(self) -> &'static str {
-        Self::NAMES[self as usize]
-    }
-
-    /// By name.
-    pub fn named(name: &str) -> Option<Self> {
-        [Self::Hanika, Self::None].into_iter().find(|s| s.name() == name)
-    }
-}
+named!(ShadowTerminator, "shadow terminator", Hanika: "hanika", None: "none",);
 
 impl Scene {
     /// The object that a ray hit.

@@ -228,3 +228,42 @@ luminance = "0 cd/m2"
     let lines: Vec<usize> = error.problems().iter().map(|p| error.position(p).unwrap().0).collect();
     assert_eq!(lines, [6, 8, 10, 12, 15, 18, 19, 28], "{error}");
 }
+
+#[test]
+fn mistakes_of_rasterising() {
+    says(
+        "[raster]\nshading = \"gourod\"\ncrease_angle = \"200 deg\"\nsubdivide = 9\nculll = true\n[raster.classic]\ndiffuse = [1, -1, 0]\nlights = [{ direction = [0, 0, 0] }]",
+        r#"
+error: `shading` is "gourod", one of `phong`, `gouraud`, `flat` is accepted
+  --> scene:6:11
+6 | shading = "gourod"
+  |           ^^^^^^^^
+hint: did you mean `gouraud`?
+
+error: `crease_angle` is `200 deg`, 0 to 180 deg is accepted
+  --> scene:7:16
+7 | crease_angle = "200 deg"
+  |                ^^^^^^^^^
+
+error: `subdivide` is 9, a whole number from 0 to 8 is accepted
+  --> scene:8:13
+8 | subdivide = 9
+  |             ^
+
+error: unknown key `culll` in raster
+  --> scene:9:1
+9 | culll = true
+  | ^^^^^
+hint: did you mean `cull`?
+
+error: colour `diffuse` is [1.0, -1.0, 0.0], numbers from 0 to 1e9 are accepted
+  --> scene:11:11
+11 | diffuse = [1, -1, 0]
+   |           ^^^^^^^^^^
+
+error: light has the direction [0.0, 0.0, 0.0], which has no length
+  --> scene:12:25
+12 | lights = [{ direction = [0, 0, 0] }]
+   |                         ^^^^^^^^^"#,
+    );
+}

@@ -1,11 +1,12 @@
 //! What descriptions become.
 
-use lesk_geometry::{Ray, Transform};
+use lesk_geometry::{EdgeRule, NormalRule, Ray, Transform};
 use lesk_image::{Image, Transfer};
 use lesk_light::{Light, Receiver};
 use lesk_math::{Vec3, vec3};
 use lesk_quantities::Quantity;
 use lesk_scene::description::*;
+use lesk_scene::raster::*;
 use lesk_scene::{MAX_PARAMS, Scene, SceneDescription};
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -201,6 +202,77 @@ fn scenes_that_render_alike_have_one_fingerprint_and_others_another() {
     };
     assert_eq!(mesh(-1.0), mesh(-1.0));
     assert_ne!(mesh(-1.0), mesh(-1.5));
+}
+
+#[test]
+fn rasterising_is_as_the_scene_says() {
+    let scene = scene(
+        r#"
+        [render]
+        aovs = true
+        [raster]
+        shading = "gouraud"
+        interpolation = "barycentric"
+        correction = "screen"
+        normals = "max1999"
+        crease_angle = "180 deg"
+        tessellation = 12
+        subdivide = 3
+        renormalize = false
+        supersampling = 4
+        quadrature = 9
+        shadows = true
+        cull = true
+        flat_point = "first"
+        space = "gamma"
+        [raster.classic]
+        ambient = [0.1, 0.2, 0.3]
+        diffuse = [0.4, 0.5, 0.6]
+        specular = [0.7, 0.8, 0.9]
+        ka = 0.2
+        kd = 0.3
+        ks = 0.5
+        shininess = 7
+        highlight = "blinn"
+        lights = [{ direction = [0, 0, 2], color = [3, 2, 1] }, { direction = [1, 0, 0] }]
+        "#,
+    );
+    let lights = vec![
+        ClassicLight { direction: vec3(0.0, 0.0, 2.0), color: [3.0, 2.0, 1.0] },
+        ClassicLight { direction: vec3(1.0, 0.0, 0.0), color: [1.0; 3] },
+    ];
+    let classic = Classic {
+        ambient: [0.1, 0.2, 0.3],
+        diffuse: [0.4, 0.5, 0.6],
+        specular: [0.7, 0.8, 0.9],
+        ka: 0.2,
+        kd: 0.3,
+        ks: 0.5,
+        shininess: 7.0,
+        highlight: Highlight::Blinn,
+        lights,
+    };
+    // each is another than by default
+    let expected = RasterSettings {
+        shading: Mode::Gouraud,
+        interpolation: Interpolation::Barycentric,
+        correction: Correction::Screen,
+        normals: NormalRule::Max1999,
+        edges: EdgeRule::Crease(std::f64::consts::PI),
+        tessellation: 12,
+        subdivide: 3,
+        renormalize: false,
+        supersampling: 4,
+        quadrature: 9,
+        shadows: true,
+        shadow_terminator: None,
+        cull: true,
+        flat_point: FlatPoint::First,
+        space: Space::Gamma,
+        classic: Some(classic),
+        aovs: true,
+    };
+    assert_eq!(scene.raster, expected);
 }
 
 #[test]

@@ -1,6 +1,7 @@
 //! The JSON Schema against the examples, by a small validator of the keywords that the schema uses.
 
 use lesk_scene::json_schema;
+use lesk_scene::raster::{Classic, RasterSettings};
 use serde_json::{Map, Value, json};
 use std::path::Path;
 
@@ -162,4 +163,45 @@ fn every_model_is_in_the_schema_and_no_parameter_has_the_name_of_a_key() {
             assert!(!["model", "two_sided"].contains(&spec.name), "{}: {}", model.id(), spec.name);
         }
     }
+}
+
+#[test]
+fn the_schema_says_what_rasterising_does_by_default() {
+    let schema = json_schema();
+    let raster = &schema["properties"]["raster"]["properties"];
+    let usual = RasterSettings::default();
+    let model = Classic::default();
+    let says = |section: &Value, key: &str, value: String| {
+        let text = section[key]["description"].as_str().unwrap();
+        assert!(text.ends_with(&format!("; {value} where absent.")), "{key}: {text}");
+    };
+    for (key, value) in [
+        ("shading", usual.shading.name().to_string()),
+        ("interpolation", usual.interpolation.name().to_string()),
+        ("correction", usual.correction.name().to_string()),
+        ("normals", usual.normals.name().to_string()),
+        ("tessellation", usual.tessellation.to_string()),
+        ("subdivide", usual.subdivide.to_string()),
+        ("renormalize", usual.renormalize.to_string()),
+        ("supersampling", usual.supersampling.to_string()),
+        ("quadrature", usual.quadrature.to_string()),
+        ("shadows", usual.shadows.to_string()),
+        ("cull", usual.cull.to_string()),
+        ("flat_point", usual.flat_point.name().to_string()),
+        ("space", usual.space.name().to_string()),
+    ] {
+        says(raster, key, value);
+    }
+    let classic = &raster["classic"]["properties"];
+    for (key, value) in [
+        ("ambient", "[1, 1, 1]".to_string()),
+        ("ka", model.ka.to_string()),
+        ("kd", model.kd.to_string()),
+        ("ks", model.ks.to_string()),
+        ("shininess", model.shininess.to_string()),
+        ("highlight", model.highlight.name().to_string()),
+    ] {
+        says(classic, key, value);
+    }
+    assert_eq!([model.ambient, model.diffuse, model.specular], [[1.0; 3]; 3]);
 }

@@ -95,6 +95,11 @@ def numbers(text: str, what: str) -> list[float]:
         raise ParameterError(f"`{what}` is `{text}`, but numbers like `0.2` or `0.1,0.2,0.3` are accepted") from None
 
 
+def crease_angle_of(word: str | None) -> float | str | None:
+    """Read degrees, or `stored`."""
+    return word if word is None or word == "stored" else numbers(word, "--crease-angle")[0]
+
+
 def direction(text: str, what: str) -> np.ndarray[Any, np.dtype[np.float64]]:
     """Read `POLAR,AZIMUTH` in degrees as a unit vector."""
     angles = numbers(text, what)

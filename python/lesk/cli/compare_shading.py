@@ -8,7 +8,7 @@ from typing import Annotated
 import typer
 
 from lesk._compare_shading import MODES, TITLES, compare_shading
-from lesk.cli._run import Json, emit
+from lesk.cli._run import Json, crease_angle_of, emit
 from lesk.errors import ParameterError
 
 
@@ -18,8 +18,8 @@ def main(
     tessellation: Annotated[int, typer.Option(help="Faces around a curved shape.")] = 24,
     spp: Annotated[int, typer.Option(help="Samples per pixel of the path-traced reference.")] = 64,
     frames: Annotated[int, typer.Option(help="Frames to time; the median counts.")] = 5,
-    normals: Annotated[str, typer.Option(help="given, analytic, mean, area, angle or max1999.")] = "given",
-    crease_angle: Annotated[float | None, typer.Option(help="Edges above are real, degrees.")] = None,
+    normals: Annotated[str | None, typer.Option(help="given, analytic, mean, area, angle or max1999.")] = None,
+    crease_angle: Annotated[str | None, typer.Option(help="Edges above are real, degrees; or stored.")] = None,
     curve: Annotated[bool, typer.Option("--curve/--no-curve", help="Error against the number of faces.")] = True,
     json: Json = False,
 ) -> int:
@@ -37,7 +37,7 @@ def main(
         spp=spp,
         frames=frames,
         normals=normals,
-        crease_angle_deg=crease_angle,
+        crease_angle_deg=crease_angle_of(crease_angle),
         curve=curve,
     )
     if output is not None:

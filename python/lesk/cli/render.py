@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import sys
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
 import typer
 
 from lesk._raster import Shading, shade
 from lesk._render import Progress, Render, render
-from lesk.cli._run import Json, emit, numbers, require_folder
+from lesk.cli._run import Json, crease_angle_of, emit, numbers, require_folder
 from lesk.errors import ParameterError, RenderInterrupted, nearest, quoted
 from lesk.image import TONE_MAPPERS
 
@@ -29,19 +29,30 @@ def main(
     split: Annotated[str | None, typer.Option(help="Layers: direct,indirect,specular,caustic.")] = None,
     aovs: Annotated[bool, typer.Option("--aovs", help="Keep albedo, normal, depth and ids.")] = False,
     engine: Annotated[str, typer.Option(help="path or raster.")] = "path",
-    shading: Annotated[str, typer.Option(help="Raster: flat, gouraud or phong.")] = "phong",
-    interpolation: Annotated[str, typer.Option(help="Raster: bilinear or barycentric.")] = "bilinear",
-    correction: Annotated[str, typer.Option(help="Raster: perspective or screen.")] = "perspective",
-    normals: Annotated[str, typer.Option(help="Raster: given, analytic, mean, area, angle or max1999.")] = "given",
-    crease_angle: Annotated[float | None, typer.Option(help="Raster: edges above are real, degrees.")] = None,
-    tessellation: Annotated[int, typer.Option(help="Raster: faces around a curved shape.")] = 64,
-    subdivide: Annotated[int, typer.Option(help="Raster: how often faces of meshes are cut into four.")] = 0,
-    supersampling: Annotated[int, typer.Option(help="Raster: samples along each side of a pixel.")] = 1,
-    quadrature: Annotated[int, typer.Option(help="Raster: points per light with an area.")] = 16,
-    shadows: Annotated[bool, typer.Option("--shadows", help="Raster: hard shadows by rays.")] = False,
-    flat_normals: Annotated[bool, typer.Option("--no-renormalize", help="Raster: keep interpolated lengths.")] = False,
-    space: Annotated[str, typer.Option(help="Raster: linear or gamma.")] = "linear",
-    classic: Annotated[str | None, typer.Option(help="Raster: classic model, as ka=0.1,kd=0.5,ks=0.4,h=50.")] = None,
+    shading: Annotated[str | None, typer.Option(help="Raster: flat, gouraud or phong.")] = None,
+    interpolation: Annotated[str | None, typer.Option(help="Raster: bilinear or barycentric.")] = None,
+    correction: Annotated[str | None, typer.Option(help="Raster: perspective or screen.")] = None,
+    normals: Annotated[str | None, typer.Option(help="Raster: given, analytic, mean, area, angle or max1999.")] = None,
+    crease_angle: Annotated[str | None, typer.Option(help="Raster: edges above are real, degrees; or stored.")] = None,
+    tessellation: Annotated[int | None, typer.Option(help="Raster: faces around a curved shape.")] = None,
+    subdivide: Annotated[int | None, typer.Option(help="Raster: how often faces of meshes are cut into four.")] = None,
+    supersampling: Annotated[int | None, typer.Option(help="Raster: samples along each side of a pixel.")] = None,
+    quadrature: Annotated[int | None, typer.Option(help="Raster: points per light with an area.")] = None,
+    shadows: Annotated[
+        bool | None, typer.Option("--shadows/--no-shadows", help="Raster: hard shadows by rays.")
+    ] = None,
+    renormalize: Annotated[
+        bool | None,
+        typer.Option("--renormalize/--no-renormalize", help="Raster: unit lengths of interpolated normals."),
+    ] = None,
+    cull: Annotated[
+        bool | None, typer.Option("--cull/--no-cull", help="Raster: leave out faces seen from behind.")
+    ] = None,
+    flat_point: Annotated[str | None, typer.Option(help="Raster: of a flat face, centroid or first.")] = None,
+    space: Annotated[str | None, typer.Option(help="Raster: linear or gamma.")] = None,
+    classic: Annotated[
+        str | None, typer.Option(help="Raster: classic model, as ka=0.1,kd=0.5,ks=0.4,h=50; or none.")
+    ] = None,
     ev100: Annotated[float | None, typer.Option(help="Exposure of a PNG; else the scene's, else metered.")] = None,
     tonemap: Annotated[str, typer.Option(help="srgb, reinhard, hable, aces, agx or neutral.")] = "srgb",
     checkpoint: Annotated[Path | None, typer.Option(help="Where to keep the exact state.")] = None,
@@ -66,27 +77,31 @@ def main(
     require_folder(output)
     if engine not in ("path", "raster"):
         raise ParameterError(f"there is no engine `{engine}`, but path, raster are accepted")
+    raster: dict[str, Any] = {
+        "shading": shading,
+        "interpolation": interpolation,
+        "correction": correction,
+        "normals": normals,
+        "crease_angle": crease_angle,
+        "tessellation": tessellation,
+        "subdivide": subdivide,
+        "supersampling": supersampling,
+        "quadrature": quadrature,
+        "shadows": shadows,
+        "renormalize": renormalize,
+        "cull": cull,
+        "flat_point": flat_point,
+        "space": space,
+        "classic": classic,
+    }
     if engine == "raster":
-        shaded = shade(
-            scene,
-            shading=shading,
-            interpolation=interpolation,
-            correction=correction,
-            normals=normals,
-            crease_angle_deg=crease_angle,
-            tessellation=tessellation,
-            subdivide=subdivide,
-            renormalize=not flat_normals,
-            supersampling=supersampling,
-            quadrature=quadrature,
-            shadows=shadows,
-            shadow_terminator=shadow_terminator,
-            space=space,
-            classic=classic_of(classic),
-            aovs=aovs,
-            threads=threads,
-        )
+        raster["crease_angle_deg"] = crease_angle_of(raster.pop("crease_angle"))
+        raster["classic"] = classic_of(classic)
+        shaded = shade(scene, **raster, shadow_terminator=shadow_terminator, aovs=aovs or None, threads=threads)
         return finish_shading(shaded, output, ev100, tonemap, json=json, quiet=quiet)
+    if meant := [name for name, value in raster.items() if value is not None]:
+        option = "--" + meant[0].replace("_", "-")
+        raise ParameterError(f"`{option}` is for the rasteriser\nhint: add `--engine raster`")
     if resume and checkpoint is None:
         checkpoint = output.with_suffix(".checkpoint")
     bar = None if quiet or not sys.stderr.isatty() else Bar()
@@ -122,10 +137,12 @@ def main(
     return status
 
 
-def classic_of(words: str | None) -> dict[str, object] | None:
-    """Read `ka=0.1,kd=0.5,ks=0.4,h=50,highlight=blinn`; no words give None."""
+def classic_of(words: str | None) -> dict[str, object] | bool | None:
+    """Read `ka=0.1,kd=0.5,ks=0.4,h=50,highlight=blinn`, or `none` for the materials; no words give None."""
     if words is None:
         return None
+    if words == "none":
+        return False
     out: dict[str, object] = {}
     for word in filter(None, words.split(",")):
         name, _, value = word.partition("=")

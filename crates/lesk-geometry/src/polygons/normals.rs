@@ -33,16 +33,12 @@ impl NormalRule {
     /// All rules, the default first.
     pub const ALL: [Self; 6] = [Self::Given, Self::Analytic, Self::Mean, Self::Area, Self::Angle, Self::Max1999];
 
+    /// Their names in commands and files, in the same order.
+    pub const NAMES: [&str; 6] = ["given", "analytic", "mean", "area", "angle", "max1999"];
+
     /// Its name in commands and files.
     pub fn name(self) -> &'static str {
-        match self {
-            Self::Given => "given",
-            Self::Analytic => "analytic",
-            Self::Mean => "mean",
-            Self::Area => "area",
-            Self::Angle => "angle",
-            Self::Max1999 => "max1999",
-        }
+        Self::NAMES[self as usize]
     }
 }
 
@@ -51,8 +47,8 @@ impl FromStr for NormalRule {
 
     fn from_str(name: &str) -> Result<Self> {
         Self::ALL.into_iter().find(|rule| rule.name() == name).ok_or_else(|| {
-            let known: Vec<_> = Self::ALL.iter().map(|rule| rule.name()).collect();
-            Error::new(format!("there is no rule `{name}` for normals, but {} are accepted", known.join(", ")))
+            let known = Self::NAMES.join(", ");
+            Error::new(format!("there is no rule `{name}` for normals, but {known} are accepted"))
         })
     }
 }

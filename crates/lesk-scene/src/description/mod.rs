@@ -28,7 +28,7 @@ pub use material::{MaterialDescription, NormalMapDescription, Picture, Source, T
 pub use object::{GroupDescription, Normals, ObjectDescription, Shape, Triangles};
 
 use crate::scene::{Film, RenderSettings};
-use crate::{MeasureSettings, Sensor};
+use crate::{MeasureSettings, RasterSettings, Sensor};
 use lesk_image::PixelFilter;
 use std::path::PathBuf;
 
@@ -43,6 +43,8 @@ pub struct SceneDescription {
     pub film: Film,
     /// How to render.
     pub render: RenderSettings,
+    /// How to rasterise.
+    pub raster: RasterSettings,
     /// Where light is measured.
     pub sensors: Vec<Sensor>,
     /// How it is measured.
@@ -71,6 +73,7 @@ impl SceneDescription {
             camera,
             film: Film { width: 640, height: 480, filter: PixelFilter::default(), ev100: None },
             render: RenderSettings::default(),
+            raster: RasterSettings::default(),
             sensors: Vec::new(),
             measure: MeasureSettings::default(),
             materials: Vec::new(),

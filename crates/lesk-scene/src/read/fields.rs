@@ -413,10 +413,12 @@ fn quantity(name: &str, node: &Node, accepted: &[Dimension], [low, high]: [f64; 
     let value =
         Quantity::parse_as(text, accepted).map_err(|e| Problem::from_text(node.place, &format!("`{name}`: {e}")))?;
     if !(low..=high).contains(&value.si()) {
-        let unit = value.dimension().si_symbol();
-        let accepted = match (low == f64::MIN_POSITIVE, high < 1e300) {
-            (true, false) => "it must be positive".to_string(),
-            _ => format!("{} to {} {unit} is accepted", short(low), short(high)),
+        let accepted = match (low == f64::MIN_POSITIVE, high < 1e300, value.dimension()) {
+            (true, false, _) => "it must be positive".to_string(),
+            (.., Dimension::Angle) => {
+                format!("{} to {} deg is accepted", short(low.to_degrees()), short(high.to_degrees()))
+            }
+            (.., other) => format!("{} to {} {} is accepted", short(low), short(high), other.si_symbol()),
         };
         return Err(Problem::new(
             node.place,

@@ -6,11 +6,12 @@ mod lights;
 mod materials;
 mod node;
 mod objects;
+mod raster;
 mod sensors;
 
 use crate::description::SceneDescription;
 use crate::error::{Problem, SceneError};
-use crate::scene::{Film, RenderSettings, Scene, ShadowTerminator};
+use crate::scene::{Film, RenderSettings, Scene};
 use crate::schema::{self, ROOT};
 use fields::{Expected, Fields, Problems};
 use lesk_image::PixelFilter;
@@ -110,6 +111,12 @@ fn fill(scene: &mut SceneDescription, root: &Fields, problems: &mut Problems) {
     {
         render(&mut scene.render, &fields);
     }
+    scene.raster.aovs = scene.render.aovs;
+    if let Some(node) = root.node("raster")
+        && let Some(fields) = Fields::of(node, &Expected::plain("raster", schema::RASTER), problems)
+    {
+        raster::settings(&mut scene.raster, &fields, problems);
+    }
     if let Some(node) = root.node("measure")
         && let Some(fields) = Fields::of(node, &Expected::plain("measure", schema::MEASURE), problems)
     {
@@ -162,6 +169,6 @@ fn render(settings: &mut RenderSettings, fields: &Fields) {
     settings.seed = fields.integer("seed").map_or(settings.seed, |i| i as u64);
     settings.split = fields.texts("split");
     settings.aovs = fields.bool("aovs").unwrap_or(settings.aovs);
-    let terminator = fields.text("shadow_terminator").and_then(ShadowTerminator::named);
+    let terminator = fields.text("shadow_terminator").and_then(|text| text.parse().ok());
     settings.shadow_terminator = terminator.unwrap_or(settings.shadow_terminator);
 }

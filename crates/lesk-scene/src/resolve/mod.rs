@@ -12,7 +12,7 @@ mod objects;
 use crate::description::SceneDescription;
 use crate::error::{Place, Problem, SceneError};
 use crate::scene::{Object, Scene};
-use crate::{Camera, Material, MeasureSettings};
+use crate::{Camera, Material, MeasureSettings, RasterSettings};
 use files::Files;
 use lesk_geometry::WorldBuilder;
 use lesk_light::{Light, Lights};
@@ -37,6 +37,7 @@ impl SceneDescription {
         resolver.materials();
         resolver.objects();
         resolver.lights();
+        resolver.check(Place::NONE, "raster", self.raster.check());
         let camera = resolver.camera();
         resolver.finish(camera)
     }
@@ -120,6 +121,7 @@ impl<'a> Resolver<'a> {
             camera,
             film: d.film.clone(),
             render: d.render.clone(),
+            raster: d.raster.clone(),
             sensors: d.sensors.clone(),
             measure: d.measure,
             world,
@@ -140,7 +142,8 @@ impl<'a> Resolver<'a> {
         plain.folder.clear();
         plain.film.ev100 = None;
         plain.render.spp = 0;
-        // sensors change no picture
+        // they change no traced picture
+        plain.raster = RasterSettings::default();
         plain.sensors.clear();
         plain.measure = MeasureSettings::default();
         let mut hasher = HashText(self.files.hasher().clone());

@@ -1,10 +1,12 @@
 //! What a scene file may contain: one table, from which the reader, its hints and the JSON Schema are made.
 
 mod json;
+mod raster;
 mod sections;
 mod sensors;
 
 pub use json::json_schema;
+pub(crate) use raster::*;
 pub(crate) use sections::*;
 pub(crate) use sensors::*;
 

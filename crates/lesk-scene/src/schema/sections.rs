@@ -1,6 +1,6 @@
 //! The table.
 
-use super::{Field, Kind, MEASURE, SENSOR, Section, Variants, field, needed};
+use super::{Field, Kind, MEASURE, RASTER, SENSOR, Section, Variants, field, needed};
 use crate::scene::ShadowTerminator;
 use Dimension::*;
 use lesk_quantities::Dimension;
@@ -19,6 +19,7 @@ pub(crate) const ROOT: &[Field] = &[
     needed("camera", Kind::Table(Section::Plain("camera", CAMERA)), "Where the picture is taken from."),
     field("film", Kind::Table(Section::Plain("film", FILM)), "Size and filter of the picture."),
     field("render", Kind::Table(Section::Plain("render", RENDER)), "How to render."),
+    field("raster", Kind::Table(Section::Plain("raster", RASTER)), "How to shade with `--engine raster`."),
     field("materials", Kind::Named(Section::Material), "Materials by name."),
     field("groups", Kind::Named(Section::Plain("group", GROUP)), "Objects that are placed as one, by name."),
     field("objects", Kind::List(Section::Variants(&OBJECT)), "What is there."),

@@ -63,6 +63,7 @@ impl Parts {
             camera,
             film: Film { width: size[0], height: size[1], filter: PixelFilter::box_filter(0.5).unwrap(), ev100: None },
             render: RenderSettings::default(),
+            raster: Default::default(),
             sensors: vec![],
             measure: MeasureSettings::default(),
             world,

@@ -1,38 +1,17 @@
-//! What is chosen by name.
+//! How a scene is rasterised: flat, Gouraud or Phong shading, and all that goes with it.
+//!
+//! `lesk_raster` does it; here stand the names, the defaults and the ranges, for scene files and callers alike.
 
-use crate::classic::Classic;
-use crate::error::{Error, Result};
+mod classic;
+
+pub(crate) use classic::{COEFFICIENT, check_color};
+pub use classic::{Classic, ClassicLight, Highlight};
+
+use crate::error::{Place, Problem};
+use crate::named::named;
+use crate::scene::ShadowTerminator;
 use lesk_geometry::{EdgeRule, NormalRule};
-use lesk_scene::ShadowTerminator;
-use std::str::FromStr;
-
-/// Gives an enum names: `ALL`, `name` and `FromStr`.
-macro_rules! named {
-    ($Type:ident, $what:literal, $($Variant:ident: $name:literal,)*) => {
-        impl $Type {
-            /// All of them, the default first.
-            pub const ALL: &[Self] = &[$(Self::$Variant),*];
-
-            /// Its name in commands and files.
-            pub fn name(self) -> &'static str {
-                match self {
-                    $(Self::$Variant => $name),*
-                }
-            }
-        }
-
-        impl FromStr for $Type {
-            type Err = Error;
-
-            fn from_str(name: &str) -> Result<Self> {
-                Self::ALL.iter().copied().find(|x| x.name() == name).ok_or_else(|| {
-                    let known: Vec<_> = Self::ALL.iter().map(|x| x.name()).collect();
-                    Error::new(format!("there is no {} `{name}`, but {} are accepted", $what, known.join(", ")))
-                })
-            }
-        }
-    };
-}
+use std::f64::consts::PI;
 
 /// Where the model is evaluated, and what is interpolated between.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -94,7 +73,7 @@ named!(FlatPoint, "flat point", Centroid: "centroid", First: "first",);
 
 /// How to shade.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Settings {
+pub struct RasterSettings {
     /// Flat, Gouraud or Phong.
     pub shading: Mode,
     /// Bilinear or barycentric.
@@ -105,19 +84,19 @@ pub struct Settings {
     pub normals: NormalRule,
     /// Which edges are real.
     pub edges: EdgeRule,
-    /// Faces around a sphere, disk or cylinder: 3 to 4096.
+    /// Faces around a sphere, disk or cylinder.
     pub tessellation: u32,
-    /// How often the faces of meshes are cut into four, on the surface that their normals state: 0 to 8.
+    /// How often the faces of meshes are cut into four, on the surface that their normals state.
     pub subdivide: u32,
     /// Whether interpolated normals are brought to unit length.
     pub renormalize: bool,
-    /// Samples along each side of a pixel: 1 to 16.
+    /// Samples along each side of a pixel.
     pub supersampling: u32,
-    /// Points per light that is not a point: 1 to 4096.
+    /// Points per light that is not a point.
     pub quadrature: u32,
     /// Whether rays look for obstacles between a point and its lights.
     pub shadows: bool,
-    /// Where rays to lights start, and which lights a face sees; `None` is what the scene says.
+    /// Where rays to lights start, and which lights a face sees; `None` is what `[render]` of the scene says.
     pub shadow_terminator: Option<ShadowTerminator>,
     /// Whether faces that show their back are left out.
     pub cull: bool,
@@ -127,13 +106,13 @@ pub struct Settings {
     pub space: Space,
     /// The classic local model instead of the materials of the scene.
     pub classic: Option<Classic>,
-    /// Whether albedo, normal, depth and ids are kept.
+    /// Whether albedo, normal, depth and ids are kept; a scene file says it for both engines, under `[render]`.
     pub aovs: bool,
 }
 
-impl Default for Settings {
+impl Default for RasterSettings {
     fn default() -> Self {
-        Settings {
+        RasterSettings {
             shading: Mode::default(),
             interpolation: Interpolation::default(),
             correction: Correction::default(),
@@ -155,25 +134,39 @@ impl Default for Settings {
     }
 }
 
-impl Settings {
+/// What the whole numbers of the settings may be.
+pub(crate) const TESSELLATION: [i64; 2] = [3, 4096];
+pub(crate) const SUBDIVIDE: [i64; 2] = [0, 8];
+pub(crate) const SUPERSAMPLING: [i64; 2] = [1, 16];
+pub(crate) const QUADRATURE: [i64; 2] = [1, 4096];
+/// What the crease angle may be, radians.
+pub(crate) const CREASE: [f64; 2] = [0.0, PI];
+
+/// False for NaN.
+fn within(value: f32, [low, high]: [f64; 2]) -> bool {
+    (low..=high).contains(&f64::from(value))
+}
+
+impl RasterSettings {
     /// # Errors
     /// A number outside its range, named.
-    pub(crate) fn check(&self) -> Result<()> {
-        for (name, value, least, most) in [
-            ("tessellation", self.tessellation, 3, 4096),
-            ("subdivide", self.subdivide, 0, 8),
-            ("supersampling", self.supersampling, 1, 16),
-            ("quadrature", self.quadrature, 1, 4096),
+    pub fn check(&self) -> Result<(), Problem> {
+        for (name, value, [low, high]) in [
+            ("tessellation", self.tessellation, TESSELLATION),
+            ("subdivide", self.subdivide, SUBDIVIDE),
+            ("supersampling", self.supersampling, SUPERSAMPLING),
+            ("quadrature", self.quadrature, QUADRATURE),
         ] {
-            if !(least..=most).contains(&value) {
-                return Err(Error::new(format!("`{name}` is {value}, {least} to {most} is accepted")));
+            if !(low..=high).contains(&i64::from(value)) {
+                let text = format!("`{name}` is {value}, {low} to {high} is accepted");
+                return Err(Problem::new(Place::NONE, text));
             }
         }
         if let EdgeRule::Crease(angle) = self.edges
-            && !(0.0..=std::f64::consts::PI + 1e-9).contains(&angle)
+            && !(CREASE[0]..=CREASE[1]).contains(&angle)
         {
             let deg = angle.to_degrees();
-            return Err(Error::new(format!("crease angle is {deg} deg, 0 to 180 deg is accepted")));
+            return Err(Problem::new(Place::NONE, format!("crease angle is {deg} deg, 0 to 180 deg is accepted")));
         }
         self.classic.as_ref().map_or(Ok(()), Classic::check)
     }
