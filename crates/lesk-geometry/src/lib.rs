@@ -61,7 +61,7 @@ pub use error::{Error, Result};
 pub use mesh::{MAX_COORDINATE, Mesh, MeshData, Repairs};
 pub use polygons::{EdgeRule, NormalRule, PolygonMesh};
 pub use ray::{Hit, Ray};
-pub use shapes::{AreaSampler, Geometry, SurfaceSample, cube, icosphere, rectangle, uv_sphere};
+pub use shapes::{AreaSampler, Geometry, SphericalRectangle, SurfaceSample, cube, icosphere, rectangle, uv_sphere};
 pub use surface::Surface;
 pub use teapot::{bezier_patch, teapot};
 pub use terminator::{WeightedCorner, raised};

@@ -3,16 +3,17 @@
 use crate::bounds::LightBounds;
 use crate::emission_map::EmissionMap;
 use crate::error::{LightError, check_color};
+use crate::parts::{Extent, Parts};
 use crate::sample::{LightSample, Receiver, Target, toward};
-use crate::triangle::Triangle;
-use lesk_geometry::{AreaSampler, Bounds, Geometry, Surface, SurfaceSample, Transform};
+use lesk_geometry::{AreaSampler, Geometry, Surface, SurfaceSample, Transform};
 use lesk_math::{Color, Vec3};
 use std::f64::consts::PI;
 
 /// A diffuse emitter: the same luminance into every direction of its outer side, or of both sides; from every point the
 /// same too, unless a mesh has an [`EmissionMap`].
 ///
-/// On a mesh, every triangle is a light of its own for the purpose of choosing.
+/// On a mesh, every rectangle of two triangles and every other triangle is a light of its own for the purpose of choosing;
+/// with a map, every triangle.
 #[derive(Clone, Debug)]
 pub struct Area {
     luminance: Color<f32>,
@@ -25,8 +26,7 @@ pub struct Area {
 #[derive(Clone, Debug)]
 enum Form {
     Whole(Box<AreaSampler>),
-    /// The triangles of a mesh; `None` for one that vanishes.
-    Triangles(Vec<Option<Triangle>>),
+    Parts(Parts),
 }
 
 impl Area {
@@ -43,12 +43,9 @@ impl Area {
         check_color("luminance", "cd/m2", luminance)?;
         let sampler = AreaSampler::new(geometry, world_from_local)?;
         let area = sampler.area();
-        let form = match geometry {
-            Geometry::Mesh(mesh) => {
-                let triangle = |i| Triangle::new(mesh, i, world_from_local);
-                Form::Triangles((0..mesh.triangles().len()).map(triangle).collect())
-            }
-            _ => Form::Whole(Box::new(sampler)),
+        let form = match geometry.mesh() {
+            Some(mesh) => Form::Parts(Parts::rectangles(mesh, world_from_local)),
+            None => Form::Whole(Box::new(sampler)),
         };
         Ok(Area { luminance, two_sided, area, form, map: None })
     }
@@ -71,18 +68,19 @@ impl Area {
         Ok(light)
     }
 
-    /// The same light with its luminance multiplied by a picture on its mesh.
+    /// A placed mesh of the given luminance in cd/m², multiplied by a picture on it.
     ///
     /// # Errors
-    /// A light that is no mesh, or not the mesh of the map.
-    pub fn with_map(mut self, map: EmissionMap) -> Result<Self, LightError> {
-        match &self.form {
-            Form::Triangles(triangles) if triangles.len() == map.len() => {
-                self.map = Some(map);
-                Ok(self)
-            }
-            _ => Err(LightError::new("an emission map needs the mesh that it lies on")),
-        }
+    /// As [`new`](Self::new).
+    pub fn mapped(
+        map: EmissionMap,
+        world_from_local: &Transform,
+        luminance: Color<f32>,
+        two_sided: bool,
+    ) -> Result<Self, LightError> {
+        let light = Self::new(&Geometry::Mesh(map.mesh().clone()), world_from_local, luminance, two_sided)?;
+        let form = Form::Parts(Parts::triangles(map.mesh(), world_from_local));
+        Ok(Area { form, map: Some(map), ..light })
     }
 
     /// Luminance, cd/m²; where an emission map is, that of a white texel.
@@ -103,16 +101,24 @@ impl Area {
     /// Luminous flux of all sides, lm.
     pub fn flux(&self) -> f32 {
         let sides = if self.two_sided { 2.0 } else { 1.0 };
-        let area = match (&self.form, &self.map) {
-            (Form::Triangles(triangles), Some(map)) => {
-                let lit = |(i, t): (usize, &Option<Triangle>)| {
-                    t.as_ref().map_or(0.0, |t| f64::from(t.area() * (self.luminance * map.mean(i)).luminance()))
-                };
-                return (PI * sides * triangles.iter().enumerate().map(lit).sum::<f64>()) as f32;
+        let flux = match &self.form {
+            Form::Parts(parts) if self.map.is_some() => {
+                let of = |(part, extent): (usize, Extent)| f64::from(extent.area * self.mean(part).luminance());
+                parts.extents().enumerate().map(of).sum::<f64>()
             }
-            _ => self.area,
+            _ => self.area * f64::from(self.luminance.luminance()),
         };
-        (PI * area * sides) as f32 * self.luminance.luminance()
+        (PI * sides * flux) as f32
+    }
+
+    /// Mean luminance of a part, cd/m².
+    fn mean(&self, part: usize) -> Color<f32> {
+        match (&self.form, &self.map) {
+            (Form::Parts(parts), Some(map)) => {
+                parts.triangle(part as u32).map_or(self.luminance, |(_, prim)| self.luminance * map.mean(prim as usize))
+            }
+            _ => self.luminance,
+        }
     }
 
     /// Luminance in cd/m² that leaves the point `p` of part `prim`, with the outer geometric normal `ng`, in direction
@@ -129,12 +135,10 @@ impl Area {
     }
 
     fn texel(&self, map: &EmissionMap, prim: u32, p: Vec3<f32>) -> Color<f32> {
-        match &self.form {
-            Form::Triangles(triangles) => match triangles.get(prim as usize).and_then(Option::as_ref) {
-                Some(triangle) => map.at(prim as usize, triangle.weights_at(p)),
-                None => Color::BLACK,
-            },
-            Form::Whole(_) => Color::WHITE,
+        let Form::Parts(parts) = &self.form else { return Color::WHITE };
+        match parts.part_of(prim).and_then(|part| parts.triangle(part)) {
+            Some((triangle, _)) => map.at(prim as usize, triangle.weights_at(p)),
+            None => Color::BLACK,
         }
     }
 
@@ -142,23 +146,23 @@ impl Area {
     pub(crate) fn part_count(&self) -> usize {
         match &self.form {
             Form::Whole(_) => 1,
-            Form::Triangles(triangles) => triangles.len(),
+            Form::Parts(parts) => parts.len(),
         }
     }
 
-    /// The part that triangle or surface part `prim` of a hit belongs to.
+    /// The part that triangle or surface part `prim` of a hit belongs to; `None` for a triangle that vanishes.
     #[inline]
-    pub(crate) fn part_of(&self, prim: u32) -> u32 {
-        match self.form {
-            Form::Whole(_) => 0,
-            Form::Triangles(_) => prim,
+    pub(crate) fn part_of(&self, prim: u32) -> Option<u32> {
+        match &self.form {
+            Form::Whole(_) => Some(0),
+            Form::Parts(parts) => parts.part_of(prim),
         }
     }
 
     pub(crate) fn sample(&self, part: u32, at: &Receiver, u: [f32; 2]) -> Option<LightSample> {
         let sample = match &self.form {
             Form::Whole(sampler) => sampler.sample_from(at.p, u),
-            Form::Triangles(triangles) => triangles[part as usize].as_ref()?.sample_from(at.p, part, u),
+            Form::Parts(parts) => parts.sample_from(part, at.p, u),
         }?;
         self.seen(at, &sample)
     }
@@ -181,15 +185,12 @@ impl Area {
     pub(crate) fn pdf(&self, at: &Receiver, hit: &Surface) -> f32 {
         match &self.form {
             Form::Whole(sampler) => sampler.pdf_from(at.p, hit.prim, hit.p, hit.ng),
-            Form::Triangles(triangles) => {
-                triangles.get(hit.prim as usize).and_then(Option::as_ref).map_or(0.0, |t| t.pdf_from(at.p, hit.p))
-            }
+            Form::Parts(parts) => parts.pdf_from(at.p, hit.prim, hit.p),
         }
     }
 
     /// Bounds of every part, in order.
     pub(crate) fn bounds(&self) -> Vec<LightBounds> {
-        let luminance = self.luminance.luminance();
         match &self.form {
             Form::Whole(sampler) => {
                 let (axis, spread, share) = match sampler.flat_normal() {
@@ -197,25 +198,16 @@ impl Area {
                     // a convex body shows a quarter of its surface on average
                     None => (Vec3::Z, PI, 0.25),
                 };
-                let intensity = luminance * self.area as f32 * share;
+                let intensity = self.luminance.luminance() * self.area as f32 * share;
                 vec![LightBounds::surface(sampler.bounds(), axis, spread, intensity, self.two_sided)]
             }
-            Form::Triangles(triangles) => {
-                let luminance_of = |i| match &self.map {
-                    Some(map) => (self.luminance * map.mean(i)).luminance(),
-                    None => luminance,
+            Form::Parts(parts) => {
+                let of = |(part, extent): (usize, Extent)| {
+                    let intensity = self.mean(part).luminance() * extent.area;
+                    LightBounds::surface(extent.bounds, extent.normal, 0.0, intensity, self.two_sided)
                 };
-                let bounds =
-                    |(i, t): (usize, &Option<Triangle>)| triangle_bounds(t.as_ref(), luminance_of(i), self.two_sided);
-                triangles.iter().enumerate().map(bounds).collect()
+                parts.extents().enumerate().map(of).collect()
             }
         }
     }
-}
-
-fn triangle_bounds(triangle: Option<&Triangle>, luminance: f32, two_sided: bool) -> LightBounds {
-    let Some(triangle) = triangle else { return LightBounds::everywhere(Vec3::ZERO, 0.0) };
-    let mut bounds = Bounds::EMPTY;
-    triangle.corners().into_iter().for_each(|c| bounds.add(c));
-    LightBounds::surface(bounds, triangle.normal(), 0.0, luminance * triangle.area(), two_sided)
 }

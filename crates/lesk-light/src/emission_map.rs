@@ -30,9 +30,9 @@ impl EmissionMap {
         map
     }
 
-    /// Number of triangles.
-    pub(crate) fn len(&self) -> usize {
-        self.means.len()
+    /// What it lies on.
+    pub(crate) fn mesh(&self) -> &Arc<Mesh> {
+        &self.mesh
     }
 
     /// The mean over a triangle.
@@ -80,7 +80,7 @@ impl EmissionMap {
 mod tests {
     use super::*;
     use crate::{Area, Light, Lights, Receiver};
-    use lesk_geometry::{Geometry, Transform};
+    use lesk_geometry::Transform;
     use lesk_image::texture::{Interpolation, Role, Wrap};
     use lesk_image::{Image, Transfer};
     use lesk_math::{Vec3, vec3};
@@ -88,16 +88,15 @@ mod tests {
     const STRAIGHT: [[f32; 3]; 2] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
 
     /// The square of side 2 with a picture of 2 x 2 texels: 0, 1 above 2, 3, without blending.
-    fn square() -> (Geometry, EmissionMap) {
+    fn square() -> EmissionMap {
         let image = Image::from_fn(2, 2, Transfer::Linear, |x, y| [(2 * y + x) as f32; 3]).unwrap();
         let texture = Texture::new(image, Role::Color, [Wrap::Clamp; 2], Interpolation::Nearest);
         let mesh = Arc::new(lesk_geometry::rectangle());
-        (Geometry::Mesh(mesh.clone()), EmissionMap::new(Arc::new(texture), mesh, 0, STRAIGHT))
+        EmissionMap::new(Arc::new(texture), mesh, 0, STRAIGHT)
     }
 
     fn light() -> Area {
-        let (geometry, map) = square();
-        Area::new(&geometry, &Transform::IDENTITY, Color::splat(10.0), false).unwrap().with_map(map).unwrap()
+        Area::mapped(square(), &Transform::IDENTITY, Color::splat(10.0), false).unwrap()
     }
 
     #[test]
@@ -138,12 +137,5 @@ mod tests {
         let form = 4.0 / std::f64::consts::PI * (0.5f64.sqrt()) * (0.5f64.sqrt()).atan();
         let expected = std::f64::consts::PI * 10.0 * form * 1.5;
         assert!((mean / expected - 1.0).abs() < 0.01, "{mean} {expected}");
-    }
-
-    #[test]
-    fn a_map_of_another_mesh_is_refused() {
-        let (_, map) = square();
-        let light = Area::new(&Geometry::Sphere, &Transform::IDENTITY, Color::splat(1.0), false).unwrap();
-        assert!(light.with_map(map).is_err());
     }
 }

@@ -58,7 +58,7 @@ impl Light {
     }
 
     /// Chooses a direction from which the light arrives; the probability of the light itself is not in `pdf`.
-    /// `part` is the triangle of a mesh, else 0. `None` where nothing arrives for this `u`.
+    /// `part` is the part of a mesh, else 0. `None` where nothing arrives for this `u`.
     pub fn sample(&self, part: u32, at: &Receiver, u: [f32; 2]) -> Option<LightSample> {
         match self {
             Light::Point(light) => light.sample(at),

@@ -34,7 +34,7 @@ impl Lights {
     /// Prepares choosing.
     ///
     /// # Errors
-    /// More than 2^24 lights, where each triangle of an emissive mesh counts.
+    /// More than 2^24 lights, where each part of an emissive mesh counts.
     pub fn new(list: Vec<Light>) -> Result<Self, LightError> {
         let mut lights = Lights { list, ..Lights::default() };
         let mut bounds = Vec::new();
@@ -100,7 +100,7 @@ impl Lights {
         if near > 0.0 { Self::share(near, all, self.infinite.len() + 1) as f32 } else { 0.0 }
     }
 
-    /// Chooses a light with `u` in [0, 1): its number, its part (the triangle of a mesh, else 0) and the probability.
+    /// Chooses a light with `u` in [0, 1): its number, its part (of a mesh, else 0) and the probability.
     /// `None` where no light arrives.
     pub fn choose(&self, at: &Receiver, u: f32) -> Option<(u32, u32, f32)> {
         let tree_pmf = self.tree_pmf(at);
@@ -144,7 +144,7 @@ impl Lights {
         self.tree_pmf(at) * self.tree.pmf(at, self.first_part[light as usize] + part)
     }
 
-    /// How many parts a light has: the triangles of a mesh, else 1.
+    /// How many parts a light has: the rectangles and other triangles of a mesh, else 1.
     pub fn part_count(&self, light: u32) -> u32 {
         match self.list.get(light as usize) {
             Some(Light::Area(area)) => area.part_count() as u32,
@@ -166,7 +166,8 @@ impl Lights {
     /// receiver hit.
     pub fn pdf_surface(&self, at: &Receiver, light: u32, hit: &Surface) -> f32 {
         let Some(known) = self.list.get(light as usize) else { return 0.0 };
-        let part = if let Light::Area(area) = known { area.part_of(hit.prim) } else { 0 };
+        let part = if let Light::Area(area) = known { area.part_of(hit.prim) } else { Some(0) };
+        let Some(part) = part else { return 0.0 };
         let pmf = self.pmf(at, light, part);
         if pmf > 0.0 { pmf * known.pdf_surface(at, hit) } else { 0.0 }
     }

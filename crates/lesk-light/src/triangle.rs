@@ -5,9 +5,9 @@ use lesk_math::Vec3;
 
 /// Solid angles between which a triangle is sampled by solid angle, sr. Below, it is seen edge-on and the area density
 /// keeps more digits; above, the triangle nearly holds a hemisphere and the angles of its corners lose digits.
-const SEEN_LARGE: std::ops::Range<f64> = 1e-3..6.2;
+pub(crate) const SEEN_LARGE: std::ops::Range<f64> = 1e-3..6.2;
 
-/// A triangle whose area over the square of its least possible distance is smaller, in sr, is sampled by area, without the
+/// A surface whose area over the square of its least possible distance is smaller, in sr, is sampled by area, without the
 /// seven trigonometric functions of the solid angle. The distance to points of a compact triangle then differs by at most
 /// a quarter from that to its centre, and the estimate of unoccluded light scatters by 0.15 of its mean: two hundredths
 /// of variance, where penumbrae and indirect light add tenths.
@@ -21,9 +21,28 @@ pub(crate) struct Triangle {
     n: Vec3<f32>,
     area: f32,
     lift: f32,
+    far: FarFrom,
+}
+
+/// Where a flat surface is seen so small that it is sampled by area.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct FarFrom {
     center: Vec3<f32>,
-    /// Square of the distance from the centre beyond which the triangle is seen small.
-    far_square: f32,
+    /// Square of the distance from the centre.
+    square: f32,
+}
+
+impl FarFrom {
+    /// Of a surface of the given area that lies within `radius` of its centre.
+    pub fn new(center: Vec3<f64>, radius: f64, area: f32) -> Self {
+        let far = radius as f32 + (area / SEEN_SMALL).sqrt();
+        FarFrom { center: narrow(center), square: far * far }
+    }
+
+    #[inline]
+    pub fn is_far(&self, x: Vec3<f32>) -> bool {
+        (self.center - x).length_squared() > self.square
+    }
 }
 
 impl Triangle {
@@ -38,19 +57,25 @@ impl Triangle {
         let area = (0.5 * length) as f32;
         let center = (a + b + c) / 3.0;
         let radius = [a, b, c].map(|v| (v - center).length()).into_iter().fold(0.0, f64::max);
-        let far = radius as f32 + (area / SEEN_SMALL).sqrt();
         (area > 0.0 && area.is_finite() && n.to_array().iter().all(|x| x.is_finite())).then(|| Triangle {
             corners,
             n,
             area,
             lift: lift(place, &local, &corners),
-            center: narrow(center),
-            far_square: far * far,
+            far: FarFrom::new(center, radius, area),
         })
     }
 
-    pub fn corners(&self) -> [Vec3<f32>; 3] {
-        self.corners
+    pub fn corners(&self) -> &[Vec3<f32>] {
+        &self.corners
+    }
+
+    /// The corner opposite to the longest side, and those that follow it.
+    pub fn from_apex(&self) -> [Vec3<f32>; 3] {
+        let c = self.corners;
+        let opposite = |k: usize| (c[(k + 1) % 3] - c[(k + 2) % 3]).length_squared();
+        let apex = (0..3).fold(0, |best, k| if opposite(k) > opposite(best) { k } else { best });
+        [c[apex], c[(apex + 1) % 3], c[(apex + 2) % 3]]
     }
 
     pub fn normal(&self) -> Vec3<f32> {
@@ -60,6 +85,11 @@ impl Triangle {
     /// Square metres.
     pub fn area(&self) -> f32 {
         self.area
+    }
+
+    /// How far a ray must keep from it, metres.
+    pub fn lift(&self) -> f32 {
+        self.lift
     }
 
     /// A point for the receiver at `x`; its `pdf` is per steradian. `uv` holds the weights of the second and third corner.
@@ -73,7 +103,7 @@ impl Triangle {
         let p = a * weights[0] + b * weights[1] + c * weights[2];
         let pdf = match seen {
             Some(seen) => (1.0 / seen.solid_angle) as f32,
-            None => self.area_pdf(x, p),
+            None => area_pdf(x, p, self.n, self.area),
         };
         let uv = [weights[1], weights[2]];
         (pdf > 0.0 && pdf.is_finite()).then_some(SurfaceSample { p, n: self.n, uv, prim, pdf, lift: self.lift })
@@ -83,19 +113,8 @@ impl Triangle {
     pub fn pdf_from(&self, x: Vec3<f32>, p: Vec3<f32>) -> f32 {
         match self.seen(x) {
             Some(seen) => (1.0 / seen.solid_angle) as f32,
-            None => self.area_pdf(x, p),
+            None => area_pdf(x, p, self.n, self.area),
         }
-    }
-
-    /// 1/area as a density over solid angle; 0 edge-on.
-    #[inline]
-    fn area_pdf(&self, x: Vec3<f32>, p: Vec3<f32>) -> f32 {
-        let to = p - x;
-        let square = to.length_squared();
-        let distance = square.sqrt();
-        let height = to.dot(self.n).abs();
-        let pdf = square * distance / (height * self.area);
-        if height > 1e-9 * distance && pdf.is_finite() { pdf } else { 0.0 }
     }
 
     /// Barycentric weights of the corners for a point of the triangle.
@@ -111,7 +130,7 @@ impl Triangle {
 
     #[inline]
     fn seen(&self, x: Vec3<f32>) -> Option<SphericalTriangle> {
-        if (self.center - x).length_squared() > self.far_square { None } else { self.seen_near(x) }
+        if self.far.is_far(x) { None } else { self.seen_near(x) }
     }
 
     #[inline(never)]
@@ -133,6 +152,17 @@ impl Triangle {
         let total: f64 = v.iter().sum();
         v.map(|v| v / total)
     }
+}
+
+/// 1/area as a density over solid angle, at the point `p` of a surface with the unit normal `n`; 0 edge-on.
+#[inline]
+pub(crate) fn area_pdf(x: Vec3<f32>, p: Vec3<f32>, n: Vec3<f32>, area: f32) -> f32 {
+    let to = p - x;
+    let square = to.length_squared();
+    let distance = square.sqrt();
+    let height = to.dot(n).abs();
+    let pdf = square * distance / (height * area);
+    if height > 1e-9 * distance && pdf.is_finite() { pdf } else { 0.0 }
 }
 
 /// A triangle on the unit sphere.
@@ -191,10 +221,10 @@ fn lift(place: &Transform, local: &[Vec3<f32>; 3], corners: &[Vec3<f32>; 3]) -> 
     16.0 * f32::EPSILON * (world + size * linear as f32 + moved as f32)
 }
 
-fn widen(v: Vec3<f32>) -> Vec3<f64> {
+pub(crate) fn widen(v: Vec3<f32>) -> Vec3<f64> {
     v.map(f64::from)
 }
 
-fn narrow(v: Vec3<f64>) -> Vec3<f32> {
+pub(crate) fn narrow(v: Vec3<f64>) -> Vec3<f32> {
     v.map(|x| x as f32)
 }

@@ -133,7 +133,8 @@ impl<'a> Path<'a> {
                 self.record_first(&vertex, Color::BLACK, ray.d, hit.t);
                 return;
             }
-            let [u_light, u_x, u_y, u_roulette] = sampler.next4d();
+            // the first two are the best spread: they choose the point
+            let [u_x, u_y, u_light, u_roulette] = sampler.next4d();
             self.add_light(&vertex, u_light, [u_x, u_y]);
             let drawn = vertex.draw(sampler.next3d());
             if bounce == 0 {

@@ -9,6 +9,7 @@ pub(crate) use analytic::{LocalSurface, shape_bounds, shape_intersect, shape_sur
 pub(crate) use meshes::rectangle_mesh;
 pub use meshes::{cube, icosphere, rectangle, uv_sphere};
 pub use sampler::{AreaSampler, SurfaceSample};
+pub use solid_angle::SphericalRectangle;
 
 use crate::bounds::Bounds;
 use crate::mesh::Mesh;

@@ -55,7 +55,7 @@ impl SphereCone {
 ///
 /// Ureña, Fajardo & King, *An Area-Preserving Parametrization for Spherical Rectangles*, EGSR 2013; names as there.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct SphericalRectangle {
+pub struct SphericalRectangle {
     x0: f64,
     x1: f64,
     y0: f64,
@@ -63,12 +63,13 @@ pub(super) struct SphericalRectangle {
     z0: f64,
     b0: f64,
     b1: f64,
-    k: f64,
+    sin_k: f64,
+    cos_k: f64,
     solid_angle: f64,
 }
 
 impl SphericalRectangle {
-    /// For a rectangle that reaches from `s` along the orthogonal edges `ex` and `ey`, seen from `o`.
+    /// For a rectangle that reaches from `s` along the orthogonal edges `ex` and `ey`, seen from `o`; metres.
     ///
     /// `None` in its plane, and where it is so small that area sampling is as good and its solid angle loses digits.
     pub fn new(s: Vec3<f64>, ex: Vec3<f64>, ey: Vec3<f64>, o: Vec3<f64>) -> Option<Self> {
@@ -77,46 +78,59 @@ impl SphericalRectangle {
         let d = s - o;
         let (x0, y0, z0) = (d.dot(x), d.dot(y), -d.dot(x.cross(y)).abs());
         let (x1, y1) = (x0 + exl, y0 + eyl);
-        let n0 = vec3(0.0, z0, -y0).normalize();
-        let n1 = vec3(-z0, 0.0, x1).normalize();
-        let n2 = vec3(0.0, -z0, y1).normalize();
-        let n3 = vec3(z0, 0.0, -x0).normalize();
-        let angle = |a: Vec3<f64>, b: Vec3<f64>| (-a.dot(b)).clamp(-1.0, 1.0).acos();
-        let (g0, g1, g2, g3) = (angle(n0, n1), angle(n1, n2), angle(n2, n3), angle(n3, n0));
-        let k = TAU - g2 - g3;
-        let solid_angle = g0 + g1 - k;
-        (solid_angle > 1e-7 && -z0 > 1e-9 * (exl + eyl)).then_some(SphericalRectangle {
-            x0,
-            x1,
-            y0,
-            y1,
-            z0,
-            b0: n0.z,
-            b1: n2.z,
-            k,
-            solid_angle,
-        })
+        let solid_angle = solid_angle([x0, x1], [y0, y1], -z0);
+        if !(solid_angle > 1e-7 && -z0 > 1e-9 * (exl + eyl)) {
+            return None;
+        }
+        // z of the unit normals n0, n1, n2, n3 of the planes through the edges
+        let along = |a: f64| a / (a * a + z0 * z0).sqrt();
+        let (b0, b1, b3) = (-along(y0), along(y1), -along(x0));
+        // k = 2 pi - gamma2 - gamma3
+        let (cos2, cos3) = (-b1 * b3, -b3 * b0);
+        let sine = |cos: f64| (1.0 - cos * cos).max(0.0).sqrt();
+        let (sin2, sin3) = (sine(cos2), sine(cos3));
+        let (sin_k, cos_k) = (-(sin2 * cos3 + cos2 * sin3), cos2 * cos3 - sin2 * sin3);
+        Some(SphericalRectangle { x0, x1, y0, y1, z0, b0, b1, sin_k, cos_k, solid_angle })
     }
 
     /// Solid angle, sr.
+    #[inline]
     pub fn solid_angle(&self) -> f64 {
         self.solid_angle
     }
 
     /// The point along the two edges, each from 0 to 1, that a uniformly distributed direction meets.
     pub fn sample(&self, u: [f64; 2]) -> [f64; 2] {
-        let au = u[0] * self.solid_angle + self.k;
-        let fu = (au.cos() * self.b0 - self.b1) / au.sin();
+        // au = u0 S + k
+        let (sin_s, cos_s) = (u[0] * self.solid_angle).sin_cos();
+        let (sin_au, cos_au) = (sin_s * self.cos_k + cos_s * self.sin_k, cos_s * self.cos_k - sin_s * self.sin_k);
+        let fu = (cos_au * self.b0 - self.b1) / sin_au;
         let cu = (1.0f64.copysign(fu) / (fu * fu + self.b0 * self.b0).sqrt()).clamp(-1.0, 1.0);
         let xu = -(cu * self.z0) / (1.0 - cu * cu).max(1e-20).sqrt();
         let xu = xu.clamp(self.x0, self.x1);
-        let d = xu.hypot(self.z0);
-        let (h0, h1) = (self.y0 / d.hypot(self.y0), self.y1 / d.hypot(self.y1));
+        let d2 = xu * xu + self.z0 * self.z0;
+        let (h0, h1) = (self.y0 / (d2 + self.y0 * self.y0).sqrt(), self.y1 / (d2 + self.y1 * self.y1).sqrt());
         let hv = h0 + u[1] * (h1 - h0);
-        let yv = if hv * hv < 1.0 - 1e-12 { hv * d / (1.0 - hv * hv).sqrt() } else { self.y1 };
+        let yv = if hv * hv < 1.0 - 1e-12 { hv * (d2 / (1.0 - hv * hv)).sqrt() } else { self.y1 };
         let yv = yv.clamp(self.y0, self.y1);
         [(xu - self.x0) / (self.x1 - self.x0), (yv - self.y0) / (self.y1 - self.y0)]
     }
+}
+
+/// Solid angle of a rectangle that reaches over `x` and `y` in a plane at the distance `z` > 0, sr.
+///
+/// A corner (x, y) and the foot of the point span atan(x y / (z r)), where r is the distance of the corner (Mathar, *Solid
+/// Angle of a Rectangular Plate*, 2015). The four angles are added as arguments of complex numbers, with one arctangent.
+fn solid_angle(x: [f64; 2], y: [f64; 2], z: f64) -> f64 {
+    let corner = |x: f64, y: f64| (z * (x * x + y * y + z * z).sqrt(), x * y);
+    let times = |(a, b): (f64, f64), (c, d): (f64, f64)| (a * c - b * d, a * d + b * c);
+    let conjugate = |(a, b): (f64, f64)| (a, -b);
+    let high = times(corner(x[1], y[1]), conjugate(corner(x[0], y[1])));
+    let low = times(corner(x[1], y[0]), conjugate(corner(x[0], y[0])));
+    let (re, im) = times(high, conjugate(low));
+    let angle = im.atan2(re);
+    // of 0 to 2 pi
+    if angle < 0.0 { angle + TAU } else { angle }
 }
 
 #[cfg(test)]
@@ -174,6 +188,23 @@ mod tests {
             let got = r.sample(u);
             assert!((got[0] - expected[0]).abs() < 1e-9 && (got[1] - expected[1]).abs() < 1e-9, "{got:?}");
         }
+    }
+
+    #[test]
+    fn solid_angles_of_rectangles_have_their_closed_forms() {
+        // on the axis: 4 asin(sin(a) sin(b)) with the half angles a and b under which the sides are seen
+        for (w, h, z) in [(1.0, 1.0, 1.0), (0.1, 2.0, 3.0), (50.0, 40.0, 0.01), (1e-3, 2e-3, 1.0)] {
+            let s = vec3(-w, -h, z);
+            let r = SphericalRectangle::new(s, vec3(2.0 * w, 0.0, 0.0), vec3(0.0, 2.0 * h, 0.0), Vec3::ZERO).unwrap();
+            let half = |x: f64| x / x.hypot(z);
+            let expected = 4.0 * (half(w) * half(h)).asin();
+            // the arcsine near 1 magnifies rounding by 3000
+            assert!((r.solid_angle() - expected).abs() < 2e-12, "{w} {h} {z}: {} {expected}", r.solid_angle());
+        }
+        // the parts of a rectangle add up to it, whichever side of the foot of the point they lie on
+        let of = |x0: f64, x1: f64, y0: f64, y1: f64| solid_angle([x0, x1], [y0, y1], 0.3);
+        let parts = of(-1.0, 0.4, -2.0, 0.7) + of(0.4, 1.5, -2.0, 0.7) + of(-1.0, 1.5, 0.7, 0.9);
+        assert!((parts - of(-1.0, 1.5, -2.0, 0.9)).abs() < 1e-14);
     }
 
     #[test]

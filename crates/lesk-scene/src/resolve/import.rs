@@ -70,17 +70,17 @@ impl Resolver<'_> {
 
     fn glowing(&mut self, part: Part, own: &Imported, place: Place) {
         let geometry = self.geometry(part.geometry).clone();
-        let area = Area::new(&geometry, &part.transform, rec709(own.emission), own.two_sided);
-        let Some(mut area) = self.check(place, &about(part.name), area) else { return };
-        if let (Some(d), Some(mesh)) = (&own.emission_map, geometry.mesh()) {
+        let luminance = rec709(own.emission);
+        let area = if let (Some(d), Some(mesh)) = (&own.emission_map, geometry.mesh()) {
             let reading = Reading { role: Role::Color, srgb: d.srgb, wrap: d.wrap, interpolation: d.interpolation };
             let loaded = self.files.texture(&d.image, reading);
             let Some(loaded) = self.check(place, &about(part.name), loaded) else { return };
             let map = EmissionMap::new(loaded.texture, mesh.clone(), d.uv_set, d.uv);
-            let mapped = area.with_map(map);
-            let Some(mapped) = self.check(place, &about(part.name), mapped) else { return };
-            area = mapped;
-        }
+            Area::mapped(map, &part.transform, luminance, own.two_sided)
+        } else {
+            Area::new(&geometry, &part.transform, luminance, own.two_sided)
+        };
+        let Some(area) = self.check(place, &about(part.name), area) else { return };
         self.instance_with(part, Some(area));
     }
 

@@ -154,7 +154,7 @@ fn split(direct: f64, all: f64) -> [f64; 2] {
 
 /// Light of one light that was chosen for this sample.
 fn ask_lights(scene: &Scene, surface: &Surface, receiver: &Receiver, weights: &Weights, sampler: &mut Sampler) -> f64 {
-    let [u_light, u_x, u_y, _] = sampler.next4d();
+    let [u_x, u_y, u_light, _] = sampler.next4d();
     let Some(sample) = scene.lights.sample(receiver, u_light, [u_x, u_y]) else { return 0.0 };
     let weight = weights.weight(sample.wi);
     if weight <= 0.0 || scene.world.occluded(&sample.shadow_ray(surface)) {
