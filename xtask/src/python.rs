@@ -109,14 +109,14 @@ impl Environment {
 
 const PROGRAMS: &str = if cfg!(windows) { "Scripts" } else { "bin" };
 
-/// Builds the wheel with the release profile, in cargo's own target folder, and gives its path.
+/// Builds the wheel with the profile that `pyproject.toml` names, in cargo's own target folder, and gives its path.
 fn build_wheel() -> Result<PathBuf, Error> {
     let folder = wheel_folder();
     if folder.exists() {
         at(&folder, std::fs::remove_dir_all(&folder))?;
     }
     MAIN.install()?;
-    run(MAIN.program("maturin").args(["build", "--release", "--locked", "--out"]).arg(&folder))?;
+    run(MAIN.program("maturin").args(["build", "--locked", "--out"]).arg(&folder))?;
     let entries = at(&folder, std::fs::read_dir(&folder))?;
     entries
         .filter_map(Result::ok)

@@ -73,4 +73,6 @@ pub struct Hit {
     pub u: f32,
     /// Barycentric weight of the triangle's third corner; 0 for curved shapes.
     pub v: f32,
+    /// The place of a triangle in its tree.
+    pub(crate) slot: u32,
 }

@@ -58,15 +58,8 @@ impl Surface {
     }
 }
 
-/// The surface where `hit` found it. `moved` says that `place` is not the identity.
-pub(crate) fn surface_at(geometry: &Geometry, place: &Transform, moved: bool, ray: &Ray, hit: &Hit) -> Surface {
-    match geometry.mesh() {
-        Some(mesh) => triangle_surface(mesh, moved.then_some(place), hit),
-        None => curved_surface(geometry, place, ray, hit),
-    }
-}
-
-fn curved_surface(geometry: &Geometry, place: &Transform, ray: &Ray, hit: &Hit) -> Surface {
+/// The surface of a curved shape where `hit` found it.
+pub(crate) fn curved_surface(geometry: &Geometry, place: &Transform, ray: &Ray, hit: &Hit) -> Surface {
     let p_ray = widen(ray.o) + widen(ray.d) * hit.t as f64;
     let local = shape_surface(geometry, hit.prim, place.inverse().point_f64(p_ray));
     let p = narrow(place.point_f64(local.p));
@@ -84,11 +77,11 @@ fn curved_surface(geometry: &Geometry, place: &Transform, ray: &Ray, hit: &Hit) 
     }
 }
 
-/// `None` is the identity.
-fn triangle_surface(mesh: &Mesh, place: Option<&Transform>, hit: &Hit) -> Surface {
+/// The surface of a triangle with the corners `local` where `hit` found it; no `place` is the identity.
+#[inline]
+pub(crate) fn triangle_surface(mesh: &Mesh, local: &[Vec3<f32>; 3], place: Option<&Transform>, hit: &Hit) -> Surface {
     let index = hit.prim as usize;
-    let local = mesh.corners(index);
-    let world = place.map_or(local, |place| local.map(|v| place.point(v)));
+    let world = place.map_or(*local, |place| local.map(|v| place.point(v)));
     let [a, b, c] = world.map(widen);
     let weights = [1.0 - hit.u - hit.v, hit.u, hit.v];
     let wide = weights.map(f64::from);
@@ -102,7 +95,7 @@ fn triangle_surface(mesh: &Mesh, place: Option<&Transform>, hit: &Hit) -> Surfac
         ns,
         uv: triangle_uv(mesh, index, [hit.u, hit.v]),
         dpdu: tangent(mesh, index, [b - a, c - a]).unwrap_or_else(|| Frame::from_normal(ns).t),
-        lift: lift(ng, magnitude(place, &local, p)),
+        lift: lift(ng, magnitude(place, local, p)),
         instance: hit.instance,
         prim: hit.prim,
     }

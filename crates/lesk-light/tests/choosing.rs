@@ -179,6 +179,36 @@ fn density_of_a_hit_is_that_of_the_sample_that_leads_there() {
 }
 
 #[test]
+fn density_of_a_rectangle_integrates_to_one_near_and_far() {
+    let rectangle = Geometry::Mesh(Arc::new(lesk_geometry::rectangle()));
+    let place =
+        Transform::translate(0.0, 0.0, 1.0) * Transform::rotate_x(PI) * Transform::scale(0.4, 0.3, 1.0).unwrap();
+    let mut builder = WorldBuilder::new();
+    let geometry = builder.geometry(rectangle.clone());
+    builder.instance(geometry, place).unwrap();
+    let world = builder.build().unwrap();
+    let light = Light::Area(Area::new(&rectangle, &place, Color::WHITE, false).unwrap());
+    let lights = Lights::new(vec![light]).unwrap();
+    assert_eq!(lights.part_count(0), 1);
+    // sampled by solid angle from 0.2 and 0.8 m below, by area from 3 and 9 m
+    for p in [vec3(0.1, -0.2, 0.8), vec3(0.3, 0.5, 0.2), vec3(1.0, 0.0, -2.0), vec3(0.0, 4.0, -8.0)] {
+        let at = Receiver::anywhere(p);
+        let n = 200;
+        let mut sum = 0.0;
+        for k in 0..n * n {
+            let [x, y] = [k % n, k / n].map(|i| 2.0 * (i as f32 + 0.5) / n as f32 - 1.0);
+            let to = vec3(0.4 * x, 0.3 * y, 1.0) - p;
+            let ray = Ray::new(p, to);
+            let hit = world.intersect(&ray).expect("the rectangle is in sight");
+            let surface = world.surface(&ray, &hit);
+            let solid_angle = to.z / to.length().powi(3) * 0.48 / (n * n) as f32;
+            sum += f64::from(lights.pdf_surface(&at, 0, &surface) * solid_angle);
+        }
+        assert!((sum - 1.0).abs() < 1e-3, "{p:?}: {sum}"); // midpoint rule, 200 x 200
+    }
+}
+
+#[test]
 fn ten_thousand_emissive_triangles_are_integrated_with_few_samples() {
     // a tessellated sphere: E = π L (R/d)² = Φ / (4π d²)
     let mesh = Geometry::Mesh(Arc::new(icosphere(5)));

@@ -1,7 +1,7 @@
 //! The walk through a tree, nearest box first.
 
 use super::simd::F4;
-use super::tree::{Child, MAX_DEPTH, Node, Tree};
+use super::tree::{Child, LANES, MAX_DEPTH, Node, Tree};
 use super::triangle::{Shear, barycentric, intersect};
 use core::mem::MaybeUninit;
 
@@ -19,12 +19,14 @@ pub(super) struct Best {
     pub source: u32,
     pub id: u32,
     pub uv: [f32; 2],
+    /// The place of a triangle in its tree, for [`Tree::corners`].
+    pub slot: u32,
 }
 
 impl Best {
     /// Nothing yet; hits at `t_max` itself do not count.
     pub fn none(t_max: f32) -> Self {
-        Best { t: t_max, source: 0, id: 0, uv: [0.0; 2] }
+        Best { t: t_max, source: 0, id: 0, uv: [0.0; 2], slot: 0 }
     }
 
     /// Whether a hit comes before this one.
@@ -312,6 +314,7 @@ pub(super) fn walk<B: BoxTest, O: Others, const ANY: bool>(
     }
     if let Some((index, lane)) = found {
         best.uv = barycentric(&blocks[index], &shear, lane);
+        best.slot = (LANES * index + lane) as u32;
     }
     improved
 }

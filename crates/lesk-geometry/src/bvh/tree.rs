@@ -2,6 +2,7 @@
 
 use super::triangle::Block;
 use crate::bounds::Bounds;
+use lesk_math::{Vec3, vec3};
 
 /// Levels below which a tree is cut into equal parts instead of following the builder, which bounds the stack.
 pub(super) const MAX_DEPTH: usize = 64;
@@ -93,6 +94,13 @@ pub(super) struct Tree {
 }
 
 impl Tree {
+    /// The corners of the triangle at `slot`: its block times [`LANES`], plus its lane.
+    #[inline]
+    pub fn corners(&self, slot: u32) -> [Vec3<f32>; 3] {
+        let (block, lane) = (&self.blocks[slot as usize / LANES], slot as usize % LANES);
+        [0, 3, 6].map(|row| vec3(block.corners[row][lane], block.corners[row + 1][lane], block.corners[row + 2][lane]))
+    }
+
     /// Bytes held.
     pub fn bytes(&self) -> usize {
         self.nodes.capacity() * size_of::<Node>() + self.blocks.capacity() * size_of::<Block>()

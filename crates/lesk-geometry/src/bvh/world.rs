@@ -6,9 +6,10 @@ use super::tree::Tree;
 use crate::bounds::Bounds;
 use crate::detail::Detail;
 use crate::error::{Error, Result};
+use crate::mesh::Mesh;
 use crate::ray::{Hit, Ray};
 use crate::shapes::{AreaSampler, Geometry, shape_intersect};
-use crate::surface::{Surface, surface_at};
+use crate::surface::{Surface, curved_surface, triangle_surface};
 use crate::transform::{Transform, narrow, widen};
 use lesk_math::{Isa, Vec3};
 
@@ -134,7 +135,7 @@ impl WorldBuilder {
 }
 
 /// The triangles of one mesh in its own space.
-struct Own<'a>(&'a crate::mesh::Mesh);
+struct Own<'a>(&'a Mesh);
 
 impl Items for Own<'_> {
     fn len(&self) -> usize {
@@ -276,13 +277,32 @@ impl World {
             prim,
             u: best.uv[0],
             v: best.uv[1],
+            slot: best.slot,
         }
     }
 
     /// The surface where `hit`, found along `ray`, lies.
     pub fn surface(&self, ray: &Ray, hit: &Hit) -> Surface {
         let instance = &self.instances[hit.instance as usize];
-        surface_at(&self.geometries[instance.geometry as usize], &instance.place, instance.moved, ray, hit)
+        let (geometry, place) = (&self.geometries[instance.geometry as usize], &instance.place);
+        match geometry.mesh() {
+            Some(mesh) => {
+                let corners = self.corners(instance, mesh, hit);
+                triangle_surface(mesh, &corners, instance.moved.then_some(place), hit)
+            }
+            None => curved_surface(geometry, place, ray, hit),
+        }
+    }
+
+    /// The corners of a triangle that was hit, in the space of its mesh: from the tree if they stand there, since its memory
+    /// has just been read.
+    #[inline]
+    fn corners(&self, instance: &Instance, mesh: &Mesh, hit: &Hit) -> [Vec3<f32>; 3] {
+        match &self.lower[instance.geometry as usize] {
+            Some(tree) => tree.corners(hit.slot),
+            None if instance.moved => mesh.corners(hit.prim as usize),
+            None => self.upper.corners(hit.slot),
+        }
     }
 
     /// What normal maps and second texture coordinates need at a surface, as [`surface`](Self::surface) gave it.
@@ -361,7 +381,7 @@ impl<const ANY: bool> Others for Entered<'_, ANY> {
         let Some((t, prim)) = hit.filter(|&(t, prim)| best.is_beaten_by(t, source, prim)) else {
             return false;
         };
-        *best = Best { t, source, id: prim, uv: [0.0; 2] };
+        *best = Best { t, source, id: prim, uv: [0.0; 2], slot: 0 };
         true
     }
 }
