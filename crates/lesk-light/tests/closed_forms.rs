@@ -153,7 +153,7 @@ fn cube_of_triangles_gives_the_sum_of_the_faces_that_are_seen() {
     let a: f64 = 0.2 / 1.8;
     let root = (1.0 + a * a).sqrt();
     let corner = 2.0 * a / root * (a / root).atan() / (2.0 * PI);
-    close(illuminance(&lamp, Vec3::ZERO, Vec3::Z, 128), 4.0 * corner * PI * 1000.0, 1e-4); // midpoint rule, 128 x 128
+    close(illuminance(&lamp, Vec3::ZERO, Vec3::Z, 128), 4.0 * corner * PI * 1000.0, 1e-3); // six faces chosen by quasi-random numbers
 }
 
 #[test]
