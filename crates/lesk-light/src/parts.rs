@@ -132,7 +132,7 @@ impl Parts {
 /// The longest side of a triangle by the bits of its ends: corners that coincide need not have the same number.
 fn side(triangle: &Triangle) -> [[u32; 3]; 2] {
     // adding 0 turns -0 into 0
-    let [_, a, b] = triangle.from_apex().map(|p| p.to_array().map(|x| (x + 0.0).to_bits()));
+    let [_, a, b] = triangle.apex_first().map(|p| p.to_array().map(|x| (x + 0.0).to_bits()));
     [a.min(b), a.max(b)]
 }
 

@@ -26,8 +26,8 @@ impl Rectangle {
     /// Of two triangles that share their longest sides; `None` if they are no rectangle up to the rounding of their
     /// corners. `own` are the numbers of the triangles.
     pub fn of(first: &Triangle, second: &Triangle, own: [u32; 2]) -> Option<Self> {
-        let [c, a, b] = first.from_apex();
-        let [d, ..] = second.from_apex();
+        let [c, a, b] = first.apex_first();
+        let [d, ..] = second.apex_first();
         let [wc, wa, wb, wd] = [c, a, b, d].map(widen);
         let (ex, ey) = (wa - wc, wb - wc);
         let (w, h) = (ex.length(), ey.length());

@@ -71,7 +71,7 @@ impl Triangle {
     }
 
     /// The corner opposite to the longest side, and those that follow it.
-    pub fn from_apex(&self) -> [Vec3<f32>; 3] {
+    pub fn apex_first(&self) -> [Vec3<f32>; 3] {
         let c = self.corners;
         let opposite = |k: usize| (c[(k + 1) % 3] - c[(k + 2) % 3]).length_squared();
         let apex = (0..3).fold(0, |best, k| if opposite(k) > opposite(best) { k } else { best });
