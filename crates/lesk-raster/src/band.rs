@@ -1,15 +1,17 @@
 //! One band of rows: which face each sample shows, then its light.
 
-use crate::Mode;
 use crate::clip::Clipped;
 use crate::frame::{Chunk, Placed, Raster, SampleHit, aov, corner_light};
 use crate::inside::{Line, Row, Triangle, Weighted, unclip};
 use crate::lanes::{Points, Work};
 use crate::lights::at;
+use crate::memory::{AHEAD, prefetch};
 use crate::prepare::triangle_normal;
+use crate::run::{Face, LANES, Place};
 use crate::samples::{Samples, Spot};
 use crate::scan::{Band, Crossing};
 use crate::shade::{Kind, Shader};
+use crate::{Mode, Space};
 use lesk_bsdf::kernels::BLOCK;
 use lesk_math::{CHANNELS, Isa, Vec3};
 use std::ops::Range;
@@ -99,8 +101,14 @@ impl BandJob<'_> {
         samples.sort(&buffers.band, faces as usize);
         let mut id = 0;
         for chunk in self.chunks {
-            for placed in &chunk.bins[band] {
+            let bin = &chunk.bins[band];
+            for (k, placed) in bin.iter().enumerate() {
                 id += 1;
+                if let Some((corners, _)) = bin.get(k + AHEAD).and_then(|p| p.triangle)
+                    && !samples.of(id + AHEAD as u32).is_empty()
+                {
+                    corners.iter().for_each(|&v| prefetch(&self.raster.prepared.vertices[v as usize]));
+                }
                 let spots = samples.of(id);
                 if !spots.is_empty() {
                     self.shade_face(buffers, chunk, placed, spots, &mut out);
@@ -175,11 +183,11 @@ impl BandJob<'_> {
             spots.iter().for_each(|&spot| out.write(out.place(spot).1, light));
             return;
         }
-        let kind = raster.kind_of[raster.prepared.objects[face as usize] as usize];
+        let kind = placed.kind;
         let plain = mode == Mode::Phong && !self.shader.raises() && !self.mapped[kind as usize];
         match placed.triangle {
-            Some((corners, _)) if plain => self.shade_triangle(buffers, face, corners, spots, out),
-            _ => self.shade_polygon(buffers, face, clipped, spots, out),
+            Some((corners, _)) if plain => self.shade_triangle(buffers, [face, kind], corners, spots, out),
+            _ => self.shade_polygon(buffers, [face, kind], clipped, spots, out),
         }
     }
 
@@ -187,40 +195,35 @@ impl BandJob<'_> {
     fn shade_triangle(
         &self,
         buffers: &mut Buffers,
-        face: u32,
+        [face, kind]: [u32; 2],
         corners: [u32; 3],
         mut spots: &[Spot],
         out: &mut Output,
     ) {
         let (data, view) = (&self.raster.prepared, &self.raster.view);
-        let [a, b, c] = corners.map(|v| &data.vertices[v as usize]);
-        let surface = Surface::new(self, face, triangle_normal([a.p, b.p, c.p]));
-        let triangle = Triangle::new(view, [a.p, b.p, c.p], self.raster.settings.correction);
-        let [p0, p1, p2] = [a.p.to_array(), b.p.to_array(), c.p.to_array()];
-        let [n0, n1, n2] = [a.n.to_array(), b.n.to_array(), c.n.to_array()];
-        let [t0, t1, t2] = [a.uv, b.uv, c.uv];
-        let textured = self.needs[surface.kind as usize][0] || !out.hits.is_empty();
+        let corners = corners.map(|v| data.vertices[v as usize]);
+        let positions = corners.map(|v| v.p);
+        let surface = Surface::new(self, [face, kind], triangle_normal(positions));
+        let [textured, anisotropic] = self.needs[surface.kind as usize];
+        let face = Face {
+            number: face,
+            inside: Triangle::new(view, positions, self.raster.settings.correction),
+            corners,
+            normal: surface.normal,
+            tangent: anisotropic.then_some(surface.tangent),
+            textured: textured || !out.hits.is_empty(),
+        };
+        let place = Place { view, first_row: out.first_row, width: out.width };
         while !spots.is_empty() {
             let points = waiting(&mut buffers.waiting, surface.kind);
-            let (these, rest) = spots.split_at(spots.len().min(BLOCK - points.n));
-            for &spot in these {
-                let ([x, y], target) = out.place(spot);
-                let [u, v] = triangle.row(view.line(y)).weights(view.column(x));
-                let i = points.n;
-                assert!(i < BLOCK, "a full block is flushed");
-                for c in 0..3 {
-                    points.p[c][i] = p0[c] + (p1[c] - p0[c]) * u + (p2[c] - p0[c]) * v;
-                    points.ns[c][i] = n0[c] + (n1[c] - n0[c]) * u + (n2[c] - n0[c]) * v;
-                }
-                for c in 0..if textured { 2 } else { 0 } {
-                    points.uv[c][i] = t0[c] + (t1[c] - t0[c]) * u + (t2[c] - t0[c]) * v;
-                }
-                surface.add(points, target);
-            }
-            spots = rest;
-            if points.n == BLOCK {
+            let room = (BLOCK - points.n) / LANES * LANES;
+            if room == 0 {
                 self.flush(buffers, surface.kind, out);
+                continue;
             }
+            let (these, rest) = spots.split_at(spots.len().min(room));
+            self.shader.lanes.run(&face, place, these, points);
+            spots = rest;
         }
     }
 
@@ -228,7 +231,7 @@ impl BandJob<'_> {
     fn shade_polygon(
         &self,
         buffers: &mut Buffers,
-        face: u32,
+        [face, kind]: [u32; 2],
         clipped: Option<&Clipped>,
         spots: &[Spot],
         out: &mut Output,
@@ -236,7 +239,7 @@ impl BandJob<'_> {
         let raster = self.raster;
         let mode = raster.settings.shading;
         let corners = raster.prepared.face(face as usize);
-        let surface = Surface::new(self, face, raster.prepared.face_normal(face as usize).map(|x| x as f32));
+        let surface = Surface::new(self, [face, kind], raster.prepared.face_normal(face as usize).map(|x| x as f32));
         let back = mode == Mode::Gouraud && raster.shows_back(corners, clipped);
         let triangle = match (corners, clipped) {
             (&[a, b, c], None) => Some(self.triangle([a, b, c])),
@@ -367,9 +370,12 @@ impl BandJob<'_> {
         let surface: Kind = self.raster.kinds[kind as usize];
         self.shader.shade(surface, None, points, work);
         if self.raster.settings.shading == Mode::Phong {
-            for i in 0..points.n {
-                let light = [0, 1, 2].map(|c| work.sum[c.min(CHANNELS - 1)][i]);
-                out.write(points.target[i], self.shader.show(light, out.white));
+            let light = |i: usize| [0, 1, 2].map(|c| work.sum[c.min(CHANNELS - 1)][i]);
+            match self.raster.settings.space {
+                Space::Linear => (0..points.n).for_each(|i| out.write(points.target[i], light(i))),
+                Space::Gamma => {
+                    (0..points.n).for_each(|i| out.write(points.target[i], self.shader.show(light(i), out.white)));
+                }
             }
         }
         for i in 0..if out.hits.is_empty() { 0 } else { points.n } {
@@ -393,10 +399,9 @@ struct Surface {
 }
 
 impl Surface {
-    fn new(job: &BandJob, face: u32, normal: Vec3<f32>) -> Surface {
-        let data = &job.raster.prepared;
-        let kind = job.raster.kind_of[data.objects[face as usize] as usize];
-        let tangent = if job.needs[kind as usize][1] { data.tangent(face as usize) } else { Vec3::ZERO };
+    fn new(job: &BandJob, [face, kind]: [u32; 2], normal: Vec3<f32>) -> Surface {
+        let anisotropic = job.needs[kind as usize][1];
+        let tangent = if anisotropic { job.raster.prepared.tangent(face as usize) } else { Vec3::ZERO };
         let mapped = job.mapped[kind as usize];
         Surface { face, kind, mapped, normal: normal.to_array(), tangent: tangent.to_array() }
     }

@@ -5,6 +5,7 @@ use crate::clip::{Clipped, clip};
 use crate::error::{Error, Result};
 use crate::lanes::{Points, Work};
 use crate::lights::at;
+use crate::memory::{AHEAD, prefetch};
 use crate::prepare::{Prepared, Vertex};
 use crate::scan::centres;
 use crate::shade::{Kind, Shader};
@@ -51,11 +52,14 @@ pub struct Count {
 pub(crate) struct Placed {
     /// Its number, or [`CLIPPED`] with that of a clipped one.
     pub entry: u32,
+    /// The kind of its surface, as a number in `kinds`.
+    pub kind: u32,
     /// Vertices and places of a whole triangle, so that nobody has to look for them again.
     pub triangle: Option<([u32; 3], [Screen; 3])>,
 }
 
 /// Chunks of faces, sorted into bands.
+#[derive(Default)]
 pub(crate) struct Chunk {
     pub bins: Vec<Vec<Placed>>,
     clipped: Vec<Clipped>,
@@ -80,6 +84,8 @@ pub struct Raster {
     pub(crate) kinds: Vec<Kind>,
     obstacles: Option<World>,
     pub(crate) screen: Vec<Screen>,
+    /// The memory of the last frame.
+    chunks: Vec<Chunk>,
     /// Light of vertices ([`corner_light`]) or faces, for the modes that interpolate or repeat it.
     pub(crate) light: Vec<[f32; 3]>,
 }
@@ -131,7 +137,18 @@ impl Raster {
         });
         let kind_of = kind_of.collect();
         let settings = settings.clone();
-        Ok(Raster { scene, settings, prepared, view, kind_of, kinds, obstacles, screen: vec![], light: vec![] })
+        Ok(Raster {
+            scene,
+            settings,
+            prepared,
+            view,
+            kind_of,
+            kinds,
+            obstacles,
+            screen: vec![],
+            chunks: vec![],
+            light: vec![],
+        })
     }
 
     /// The surfaces as the rasteriser sees them, for rays: one mesh per object, in the order of the scene.
@@ -179,9 +196,7 @@ impl Raster {
     /// Draws a frame into the memory of an earlier one.
     pub fn draw(&mut self, frame: &mut Frame) {
         let start = Instant::now();
-        let view = &self.view;
-        let place = |v: &Vertex| view.snap(view.project(v.p));
-        self.prepared.vertices.par_iter().map(place).collect_into_vec(&mut self.screen);
+        self.place_vertices();
         let chunks = self.place_faces();
         let obstacles = self.obstacles.take();
         let shader = Shader::new(&self.scene, &self.settings, self.view.eye, obstacles.as_ref());
@@ -206,6 +221,7 @@ impl Raster {
             elapsed: start.elapsed(),
         };
         self.obstacles = obstacles;
+        self.chunks = chunks;
     }
 
     fn bands(&self, shader: &Shader, chunks: &[Chunk], frame: &mut Frame) -> u64 {
@@ -235,37 +251,52 @@ impl Raster {
             .sum()
     }
 
+    fn place_vertices(&mut self) {
+        let Raster { view, prepared, screen, .. } = self;
+        screen.resize(prepared.vertices.len(), Screen::default());
+        let vertices = prepared.vertices.par_chunks(CHUNK);
+        screen.par_chunks_mut(CHUNK).zip(vertices).for_each(|(places, vertices)| {
+            for (place, v) in places.iter_mut().zip(vertices) {
+                *place = view.snap(view.project(v.p));
+            }
+        });
+    }
+
     /// Sorts faces into bands, in their order.
-    fn place_faces(&self) -> Vec<Chunk> {
+    fn place_faces(&mut self) -> Vec<Chunk> {
         let bands = self.view.height.div_ceil(BAND) as usize;
         let faces = self.prepared.face_count();
-        (0..faces.div_ceil(CHUNK))
-            .into_par_iter()
-            .map(|chunk| {
-                let mut out = Chunk { bins: vec![Vec::new(); bands], clipped: Vec::new() };
-                for face in chunk * CHUNK..((chunk + 1) * CHUNK).min(faces) {
-                    self.place_face(face, &mut out);
-                }
-                out
-            })
-            .collect()
+        let mut chunks = std::mem::take(&mut self.chunks);
+        chunks.resize_with(faces.div_ceil(CHUNK), Chunk::default);
+        chunks.par_iter_mut().enumerate().for_each(|(chunk, out)| {
+            out.bins.iter_mut().for_each(Vec::clear);
+            out.bins.resize_with(bands, Vec::new);
+            out.clipped.clear();
+            for face in chunk * CHUNK..((chunk + 1) * CHUNK).min(faces) {
+                let later = self.prepared.face((face + AHEAD).min(faces - 1));
+                later.iter().for_each(|&v| prefetch(&self.screen[v as usize]));
+                self.place_face(face, out);
+            }
+        });
+        chunks
     }
 
     #[inline]
     fn place_face(&self, face: usize, out: &mut Chunk) {
         let corners = self.prepared.face(face);
+        let kind = self.kind_of[self.prepared.objects[face] as usize];
         let screen = |v: u32| self.screen[v as usize];
         if let &[a, b, c] = corners {
             let places = [screen(a), screen(b), screen(c)];
             if places.iter().all(|s| s.x != Screen::CLIP) {
-                let placed = Placed { entry: face as u32, triangle: Some(([a, b, c], places)) };
+                let placed = Placed { entry: face as u32, kind, triangle: Some(([a, b, c], places)) };
                 self.sort(placed, places.into_iter(), out);
                 return;
             }
         }
         if corners.iter().any(|&v| screen(v).x == Screen::CLIP) {
             if let Some(clipped) = clip(&self.prepared, &self.view, face as u32) {
-                let placed = Placed { entry: CLIPPED | out.clipped.len() as u32, triangle: None };
+                let placed = Placed { entry: CLIPPED | out.clipped.len() as u32, kind, triangle: None };
                 let shown = self.sort(placed, clipped.corners.iter().map(|c| c.screen), out);
                 if shown {
                     out.clipped.push(clipped);
@@ -273,7 +304,7 @@ impl Raster {
             }
             return;
         }
-        self.sort(Placed { entry: face as u32, triangle: None }, corners.iter().map(|&v| screen(v)), out);
+        self.sort(Placed { entry: face as u32, kind, triangle: None }, corners.iter().map(|&v| screen(v)), out);
     }
 
     /// Adds a face to its bands; `false` where it cannot show.

@@ -41,7 +41,7 @@ impl Triangle {
     }
 
     /// The weights in a row whose rays have the given y.
-    #[inline]
+    #[inline(always)]
     pub fn row(&self, y: f64) -> Line {
         let [a, b, c] = self.sides;
         Line { slope: [a.x, b.x, c.x], start: [a.y * y - a.z, b.y * y - b.z, c.y * y - c.z] }
@@ -51,7 +51,7 @@ impl Triangle {
 impl Line {
     /// Weights of the second and third corner at the ray with the given x; clamped to the triangle, which the grid may
     /// leave by half a step.
-    #[inline]
+    #[inline(always)]
     pub fn weights(&self, x: f64) -> [f32; 2] {
         let b = [0, 1, 2].map(|k| (self.slope[k] * x + self.start[k]).max(0.0));
         let sum = b[0] + b[1] + b[2];

@@ -1,6 +1,8 @@
 //! Loops over blocks of points, compiled for each instruction set. Products and sums do not fuse, so every instruction set
 //! gives the same bits.
 
+use crate::run::{self, Face, Place};
+use crate::samples::Spot;
 use lesk_bsdf::kernels::{BLOCK, Row};
 use lesk_math::{CHANNELS, Isa};
 
@@ -305,6 +307,7 @@ pub(crate) struct Lanes {
     point: unsafe fn(&Points, &mut Work, [f32; 3], [f32; CHANNELS]),
     local: unsafe fn(&Points, &mut Work),
     add: unsafe fn(usize, &mut Work),
+    run: unsafe fn(&Face, Place, &[Spot], &mut Points),
 }
 
 macro_rules! lanes {
@@ -330,7 +333,11 @@ macro_rules! lanes {
         unsafe fn add(n: usize, work: &mut Work) {
             add_body(n, work)
         }
-        Lanes { orient, point, local, add }
+        $(#[target_feature(enable = $feature)])?
+        unsafe fn run(face: &Face, place: Place, spots: &[Spot], points: &mut Points) {
+            run::body(face, place, spots, points)
+        }
+        Lanes { orient, point, local, add, run }
     }};
 }
 
@@ -368,5 +375,10 @@ impl Lanes {
     pub fn add(&self, n: usize, work: &mut Work) {
         // SAFETY: see `orient`
         unsafe { (self.add)(n, work) }
+    }
+
+    pub fn run(&self, face: &Face, place: Place, spots: &[Spot], points: &mut Points) {
+        // SAFETY: see `orient`
+        unsafe { (self.run)(face, place, spots, points) }
     }
 }

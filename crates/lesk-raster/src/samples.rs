@@ -13,12 +13,12 @@ impl Spot {
         Spot(row << 16 | column)
     }
 
-    #[inline]
+    #[inline(always)]
     pub fn row(self) -> u32 {
         self.0 >> 16
     }
 
-    #[inline]
+    #[inline(always)]
     pub fn column(self) -> u32 {
         self.0 & 0xffff
     }

@@ -103,7 +103,8 @@ pub(crate) struct Band {
     pub width: u32,
     /// From one row to the next.
     stride: usize,
-    /// Whether the lanes of [`crate::small`] may run.
+    /// Whether the lanes of `small.rs` may run.
+    #[cfg(target_arch = "x86_64")]
     lanes: bool,
     /// First row and the one after the last.
     pub rows: std::ops::Range<u32>,
@@ -113,9 +114,16 @@ pub(crate) struct Band {
 
 impl Band {
     pub fn new(isa: Isa) -> Band {
-        let lanes = cfg!(target_arch = "x86_64") && isa != Isa::Baseline;
         assert!(isa.is_available(), "this processor lacks {}", isa.name());
-        Band { width: 0, stride: 0, lanes, rows: 0..0, depth: Vec::new(), ids: Vec::new() }
+        Band {
+            width: 0,
+            stride: 0,
+            #[cfg(target_arch = "x86_64")]
+            lanes: isa != Isa::Baseline,
+            rows: 0..0,
+            depth: Vec::new(),
+            ids: Vec::new(),
+        }
     }
 
     pub fn start(&mut self, width: u32, rows: std::ops::Range<u32>) {
@@ -185,7 +193,7 @@ impl Band {
     }
 
     #[inline]
-    fn triangle_span(&mut self, id: u32, plane: &Plane, y: u32, columns: std::ops::Range<usize>) {
+    pub fn triangle_span(&mut self, id: u32, plane: &Plane, y: u32, columns: std::ops::Range<usize>) {
         let row = self.row(y);
         let base = plane.row(y);
         let (depth, ids) = (&mut self.depth[row.clone()][columns.clone()], &mut self.ids[row][columns.clone()]);

@@ -24,7 +24,7 @@ pub(crate) struct Shader<'a> {
     scene: &'a Scene,
     classic: Option<&'a Classic>,
     sources: Vec<Source>,
-    lanes: Lanes,
+    pub lanes: Lanes,
     pub isa: Isa,
     eye: Vec3<f32>,
     renormalize: bool,

@@ -49,32 +49,38 @@ pub(crate) fn triangle(band: &mut Band, id: u32, corners: [Screen; 3]) {
     if area == 0 || columns.is_empty() || rows.is_empty() {
         return;
     }
-    let plane = Plane::new(corners);
+    // most of the smallest triangles lie between the samples
+    let mut plane = None;
     let (b, c) = if area > 0 { (b, c) } else { (c, b) };
     let (x, y) = (centre(columns.start), centre(rows.start));
     let edges = [Edge::new(a, b, x, y), Edge::new(b, c, x, y), Edge::new(c, a, x, y)];
+    if columns.len() == 1 && rows.len() == 1 {
+        if edges.iter().all(|edge| edge.value >= 0) {
+            band.triangle_span(id, &Plane::new(corners), rows.start, columns.start as usize..columns.end as usize);
+        }
+        return;
+    }
     let lane = _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7);
     let all = |v: i32| _mm256_set1_epi32(v);
     let mut at_row =
         [0, 1, 2].map(|k| _mm256_add_epi32(all(edges[k].value), _mm256_mullo_epi32(all(edges[k].per_column), lane)));
     let per_row = [0, 1, 2].map(|k| all(edges[k].per_row));
     let per_lanes = [0, 1, 2].map(|k| all(edges[k].per_column * LANES as i32));
-    // whole numbers below 2^24: exact
-    let first = x as f32 - plane.x;
     let offsets = _mm256_mul_ps(_mm256_cvtepi32_ps(lane), _mm256_set1_ps(STEPS as f32));
-    let (per_x, ids) = (_mm256_set1_ps(plane.per_x), all(id as i32));
-    let (low, high) = (_mm256_set1_ps(plane.low), _mm256_set1_ps(plane.high));
+    let ids = all(id as i32);
     for y in rows {
-        let base = _mm256_set1_ps(plane.row(y));
         let start = band.row(y).start;
-        let (mut at, mut column, mut along) = (at_row, columns.start as usize, first);
+        let (mut at, mut column) = (at_row, columns.start as usize);
         while column < columns.end as usize {
             let outside = _mm256_or_si256(_mm256_or_si256(at[0], at[1]), at[2]);
             if _mm256_movemask_ps(_mm256_castsi256_ps(outside)) != 0xff {
-                let along = _mm256_add_ps(_mm256_set1_ps(along), offsets);
-                let z = _mm256_add_ps(base, _mm256_mul_ps(per_x, along));
+                let plane = plane.get_or_insert_with(|| Plane::new(corners));
+                // whole numbers below 2^24: exact
+                let first = _mm256_set1_ps(centre(column as u32) as f32 - plane.x);
+                let along = _mm256_add_ps(first, offsets);
+                let z = _mm256_add_ps(_mm256_set1_ps(plane.row(y)), _mm256_mul_ps(_mm256_set1_ps(plane.per_x), along));
                 // beyond the corners only rounding leads
-                let z = _mm256_min_ps(_mm256_max_ps(z, low), high);
+                let z = _mm256_min_ps(_mm256_max_ps(z, _mm256_set1_ps(plane.low)), _mm256_set1_ps(plane.high));
                 let from = start + column;
                 // SAFETY: behind every row there is room for eight columns more, which is checked here
                 unsafe {
@@ -90,7 +96,6 @@ pub(crate) fn triangle(band: &mut Band, id: u32, corners: [Screen; 3]) {
             }
             at = [0, 1, 2].map(|k| _mm256_add_epi32(at[k], per_lanes[k]));
             column += LANES;
-            along += (LANES as i32 * STEPS) as f32;
         }
         at_row = [0, 1, 2].map(|k| _mm256_add_epi32(at_row[k], per_row[k]));
     }
