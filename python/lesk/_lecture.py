@@ -19,6 +19,13 @@ class Idea(NamedTuple):
     """What is still to be made; empty where nothing is."""
 
 
+ILLUMINANCES = (
+    ("temporary place", 50.0),
+    ("sight important", 100.0),
+    ("high demands", 300.0),
+)
+"""Illuminances that the lecture wants at places of work, lx."""
+
 IDEAS = (
     Idea("Surface appearance", "geometry × light × reflectance", ("appearance",)),
     Idea(
@@ -60,7 +67,7 @@ IDEAS = (
         "LED bulb",
         "1100 lm at 1.5 m: 38.9 lx; 50, 100, 300 lx wanted",
         ("led_bulb",),
-        ('lesk quantity "1100 lm" --to lx --at 1.5m',),
+        ('lesk quantity "1100 lm" --to lx --at 1.5m --demands',),
     ),
     Idea(
         "Light sources",

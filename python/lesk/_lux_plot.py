@@ -81,11 +81,26 @@ def plan(sensor: Readings, *, factor: float = 1.0, scene: Scene | None = None) -
         lines = levels(float(value.min()), float(value.max()))
         if value.size > _NUMBERS and min(value.shape) > 1 and lines:
             contours = axes.contour(x, y, value, levels=lines, colors="white", linewidths=1.1)
-            axes.clabel(contours, fmt="%g", fontsize=8, colors="white")
+            named = _prune(contours, smallest=1.5 * _cell(x), long=0.25 * min(width, height))
+            axes.clabel(contours, fmt="%g", fontsize=8, colors="white", manual=named)
             image.colorbar.add_lines(contours, erase=True)
         axes.set(aspect="equal", xlabel=f"{along[0]} (m)", ylabel=f"{along[1]} (m)", title=sensor.name)
         axes.grid(False)
     return figure
+
+
+def _prune(contours: Any, smallest: float, long: float) -> list[tuple[float, float]]:
+    """Take out the specks that noise makes; give the middles of the long lines, which bear their number."""
+    from matplotlib.path import Path
+
+    kept, middles = [], []
+    for path in contours.get_paths():
+        lines = [(line, float(np.ptp(line, axis=0).max())) for line in path.to_polygons(closed_only=False)]
+        lines = [(line, extent) for line, extent in lines if extent >= smallest]
+        middles += [tuple(line[len(line) // 2]) for line, extent in lines if extent >= long]
+        kept.append(Path.make_compound_path(*(Path(line) for line, _ in lines)))
+    contours.set_paths(kept)
+    return middles
 
 
 def _colored(axes: Any, x: Array, y: Array, value: Array, unit: str, figure: Plot) -> Any:

@@ -93,6 +93,26 @@ def test_bands_show_the_lecture_beside_a_black_body(capsys):
     assert main(["quantity", "1100 lm", "--bands"]) == 2
 
 
+def test_the_bulb_misses_all_that_the_lecture_demands(capsys):
+    words = ["quantity", "1100 lm", "--to", "lx", "--at", "1.5m", "--demands"]
+    rows = json.loads(output(capsys, *words, "--json"))["demands"]
+    # lecture.md: the bulb's 38.9 lx against 50, 100 and 300 lx
+    assert [row["lux"] for row in rows] == [50, 100, 300]
+    assert [row["share"] for row in rows] == pytest.approx([38.9045 / 50, 38.9045 / 100, 38.9045 / 300], rel=1e-5)
+    assert not any(row["met"] for row in rows)
+    assert output(capsys, *words).count("missed") == 3
+    words[words.index("1.5m")] = "1m"
+    assert output(capsys, *words).count("met") == 1
+    assert main(["quantity", "1100 lm", "--to", "cd", "--demands"]) == 2
+
+
+def test_sunlight_on_a_tilted_plane_in_lux(capsys):
+    # lights.md, section 5: ASTM G173 global tilt, 1000.37 W/m2 and 109.50 klx
+    words = ["quantity", "1000.37 W/m2 @ AM1.5G", "--to", "klx", "--json"]
+    assert json.loads(output(capsys, *words))["value"] == pytest.approx(109.50, abs=0.006)
+    assert lesk.spectrum("AM1.5G").energy() == pytest.approx(1000.37, abs=0.006)
+
+
 def test_constants_of_the_lecture_stand_beside_ours(capsys):
     words = ["quantity", "1 W @ 555 nm", "--to", "lm", "--km", "680", "--range", "380:770", "--json"]
     data = json.loads(output(capsys, *words))

@@ -9,7 +9,7 @@ use std::fmt;
 /// A spectrum by name.
 ///
 /// The efficacy of an illuminant counts watts between 380 and 780 nm, that of a black body its whole spectrum, as an
-/// incandescent lamp draws it.
+/// incandescent lamp draws it, and that of sunlight (`AM0`, `AM1.5G`, `AM1.5D`) its whole table, 280 to 4000 nm.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Spectrum {
     /// Equal energy per nm.
@@ -22,14 +22,14 @@ pub enum Spectrum {
     D65,
     /// Planck's law at this temperature in K.
     Blackbody(f64),
-    /// Another illuminant of the CIE, by one of [`lesk_quantities::Spectrum::names`].
+    /// Another illuminant of the CIE, or sunlight, by one of [`lesk_quantities::Spectrum::names`].
     Named(&'static str),
 }
 
 impl Spectrum {
     /// What [`parse`](Self::parse) accepts.
     pub const ACCEPTED: &str =
-        "`E`, `A`, `D50`, `D65`, `FL2`, `LED-B3` or another illuminant of the CIE, or `blackbody 2700 K`";
+        "`E`, `A`, `D50`, `D65`, `FL2`, `LED-B3` or another illuminant of the CIE, `AM1.5G`, or `blackbody 2700 K`";
 
     /// Reads `E`, `A`, `D50`, `D65`, another illuminant (`FL2`, `LED-B3`; `lesk spectrum --names` lists them), or
     /// `blackbody T` with T from 500 K to 100000 K.
@@ -66,7 +66,10 @@ impl Spectrum {
     pub fn efficacy(self) -> f64 {
         match self {
             Self::Blackbody(t) => radiometry::blackbody_efficacy(t),
-            _ => self.illuminant().efficacy(Some(Range::VISIBLE), Vision::Photopic),
+            _ => {
+                let illuminant = self.illuminant();
+                illuminant.efficacy(illuminant.range(), Vision::Photopic)
+            }
         }
     }
 
@@ -90,7 +93,8 @@ impl Spectrum {
 
     /// How watts became lumens, for reports: `16.45 lm/W (blackbody 2856 K, whole spectrum, K_m = 683.002 lm/W)`.
     pub fn conversion(self) -> String {
-        let range = if matches!(self, Self::Blackbody(_)) { "whole spectrum" } else { "380 to 780 nm" };
+        let range = self.illuminant().range();
+        let range = range.map_or("whole spectrum".into(), |r| format!("{} to {} nm", r.first_nm, r.last_nm));
         format!("{:.2} lm/W ({self}, {range}, K_m = {K_M} lm/W)", self.efficacy())
     }
 }

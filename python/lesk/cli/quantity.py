@@ -9,6 +9,7 @@ from typing import Annotated, Any
 import typer
 
 from lesk import _lesk
+from lesk._lecture import ILLUMINANCES
 from lesk._quantity import Quantity, quantity
 from lesk.cli._run import Json, emit
 from lesk.errors import ParameterError
@@ -38,14 +39,15 @@ def main(
     dome: Annotated[bool, typer.Option("--dome", help="The light comes from an even hemisphere.")] = False,
     scotopic: Annotated[bool, typer.Option("--scotopic", help="Lumens of eyes adapted to the dark.")] = False,
     bands: Annotated[bool, typer.Option("--bands", help="Split sunlight into ultraviolet, visible, infrared.")] = False,
+    demands: Annotated[bool, typer.Option("--demands", help="Set lux beside what places of work demand.")] = False,
     units: Annotated[bool, typer.Option("--units", help="List all quantities and units.")] = False,
     json: Json = False,
 ) -> None:
     """Convert a quantity of light, and say what was assumed.
 
     JSON: `given`, `value`, `unit`, `steps` (`formula`, `assumption`, `value`, `unit`), `unused`; with `--km` or
-    `--range` also `standard`, the same with Lesk's constants; with `--bands` also `bands`; with `--units` only
-    `quantities` and `units`.
+    `--range` also `standard`, the same with Lesk's constants; with `--bands` also `bands`; with `--demands` also `demands`
+    (`place`, `lux`, `share`, `met`); with `--units` only `quantities` and `units`.
     """
     if units:
         list_units(json)
@@ -72,12 +74,15 @@ def main(
     found = start.to(wanted, **assumed, range=range_, km=km)
     standard = start.to(wanted, **assumed) if km or range_ else None
     rows = split(found) if bands else None
+    wants = compare(found) if demands else None
     if json:
         data: dict[str, Any] = {"given": given, **plain(found)}
         if standard is not None:
             data["standard"] = plain(standard)
         if rows is not None:
             data["bands"] = rows
+        if wants is not None:
+            data["demands"] = wants
         emit(data)
         return
     show(given, found)
@@ -86,6 +91,8 @@ def main(
         show_steps(standard)
     if rows is not None:
         show_bands(rows, found.unit)
+    if wants is not None:
+        show_demands(wants)
     for name in found.unused:
         flag = "at" if name == "distance" else name.replace("_", "-")
         print(f"note: `--{flag}` was not needed", file=sys.stderr)
@@ -151,6 +158,26 @@ def show_bands(rows: list[dict[str, Any]], unit: str) -> None:
         ours = f"{100 * row['share']:.1f} % {row['value']:10.5g} {unit}"
         theirs = f"{100 * row['lecture_share']:.0f} % {row['lecture_value']:8.4g} {unit}"
         print(f"{row['band']:12} {place:14} {ours:>24} {theirs:>22}")
+
+
+def compare(found: Quantity) -> list[dict[str, Any]]:
+    """Set an illuminance beside those that the lecture wants at places of work."""
+    if found.dimension != "illuminance":
+        raise ParameterError(
+            f"`--demands` judges an illuminance, but the result is `{found.unit}` ({found.dimension})\nhint: ask for lx"
+        )
+    lux = found.to("lx").value
+    return [
+        {"place": place, "lux": wanted, "share": lux / wanted, "met": lux >= wanted} for place, wanted in ILLUMINANCES
+    ]
+
+
+def show_demands(rows: list[dict[str, Any]]) -> None:
+    """Print the table of places."""
+    print(f"\n{'place of work':16} {'demanded':>8} {'reached':>8}")
+    for row in rows:
+        print(f"{row['place']:16} {row['lux']:5.0f} lx {100 * row['share']:6.0f} %  {'met' if row['met'] else 'missed'}")
+    print("(the lecture's figures; `lesk lux --tasks` has those of EN 12464-1)")
 
 
 def list_units(json: bool) -> None:

@@ -5,17 +5,12 @@ from __future__ import annotations
 import numpy as np
 import numpy.typing as npt
 
+from lesk._lecture import ILLUMINANCES
 from lesk.plot._figure import CURVES, FAINT, INK, Array, Plot, figure, style
 
 PLANCK, LIGHT_SPEED, BOLTZMANN = 6.62607015e-34, 299792458.0, 1.380649e-23
 """SI, exact by definition (BIPM 2019)."""
 _BULB_LM = 1100.0
-_TASKS = (
-    ("temporary place", 50.0),
-    ("sight important", 100.0),
-    ("high demands", 300.0),
-)
-"""Illuminances that the lecture recommends, lx."""
 
 
 def irradiance(flux: float, distance: npt.ArrayLike) -> Array:
@@ -132,7 +127,7 @@ def led_bulb(*, flux: float = _BULB_LM, distance: float = 1.5) -> Plot:
         fig = figure(6.4, 3.9)
         axes = fig.add_subplot()
         axes.loglog(d, irradiance(flux, d), color=CURVES[0])
-        for name, wanted in _TASKS:
+        for name, wanted in ILLUMINANCES:
             near = float(np.sqrt(flux / (4 * np.pi * wanted)))
             axes.axhline(wanted, color=FAINT, linewidth=1)
             axes.plot(near, wanted, "o", color=CURVES[1], markersize=5)

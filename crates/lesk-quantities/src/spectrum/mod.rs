@@ -2,6 +2,7 @@
 
 mod name;
 mod read;
+mod sunlight;
 
 use crate::photometry::{Range, Vision};
 use crate::{QuantityError, observer::Observer, radiometry, table};
@@ -126,27 +127,23 @@ impl Spectrum {
         }
     }
 
-    /// The integral of the spectrum times a weight over a range: the trapezoid rule at 1 nm, finer where a table is.
-    /// The whole line for single lines within the range.
+    /// The integral of the spectrum times a weight over a range: the trapezoid rule at whole nm, and at the rows of a
+    /// table. The whole line for single lines within the range.
     pub fn integrate(&self, range: Range, weight: impl Fn(f64) -> f64) -> f64 {
         let (first, last) = (f64::from(range.first_nm), f64::from(range.last_nm));
         if let Some(nm) = self.single_wavelength() {
             return if (first..=last).contains(&nm) { weight(nm) } else { 0.0 };
         }
-        let per_nm = match &self.shape {
-            Shape::Table(rows) => {
-                let length = rows[rows.len() - 1][0] - rows[0][0];
-                ((rows.len() - 1) as f64 / length).ceil().clamp(1.0, 10.0) as u32
-            }
-            _ => 1,
-        };
-        let steps = (range.last_nm - range.first_nm) * per_nm;
-        let value = |i: u32| {
-            let nm = first + f64::from(i) / f64::from(per_nm);
-            self.at(nm) * weight(nm)
-        };
-        let inner: f64 = (0..=steps).map(value).sum();
-        (inner - 0.5 * (value(0) + value(steps))) / f64::from(per_nm)
+        let mut nodes: Vec<f64> = (range.first_nm..=range.last_nm).map(f64::from).collect();
+        if let Shape::Table(rows) = &self.shape {
+            nodes.extend(rows.iter().map(|row| row[0]));
+            // outside its rows a table is zero, without a slope to there
+            let held = rows[0][0].max(first)..=rows[rows.len() - 1][0].min(last);
+            nodes.retain(|nm| held.contains(nm));
+            nodes.sort_by(f64::total_cmp);
+        }
+        let values = nodes.iter().map(|&nm| [nm, self.at(nm) * weight(nm)]);
+        values.clone().zip(values.skip(1)).map(|([x0, y0], [x1, y1])| 0.5 * (x1 - x0) * (y0 + y1)).sum()
     }
 
     /// Energy within a range, or of the whole spectrum, in the unit of the spectrum times nm.

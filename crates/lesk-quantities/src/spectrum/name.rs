@@ -1,11 +1,11 @@
 //! Spectra by name: `D65`, `FL2`, `blackbody:2856K`, `600 nm`.
 
-use super::{Shape, Spectrum};
+use super::{Shape, Spectrum, sunlight};
 use crate::{Dimension, Quantity, QuantityError, table};
 
 /// What [`Spectrum::parse`] accepts, for messages.
 pub const ACCEPTED: &str = "`A`, `E`, `D50`, `D65` (any D40 to D250), `FL1` to `FL12`, `FL3.1` to `FL3.15`, \
-    `HP1` to `HP5`, `LED-B1` (LED-B1 to B5, BH1, RGB1, V1, V2), `blackbody 2856 K`, `555 nm`, `gaussian 450 nm, 20 nm`";
+    `HP1` to `HP5`, `LED-B1` (LED-B1 to B5, BH1, RGB1, V1, V2), `AM0`, `AM1.5G`, `AM1.5D`, `blackbody 2856 K`, `555 nm`, `gaussian 450 nm, 20 nm`";
 
 /// D65 of 1964 has 6500 K by the c2 of then, 1.4380e-2 m K: 6504 K (CIE 15).
 const NAME_TO_KELVIN: f64 = 100.0 * 1.4388 / 1.4380;
@@ -34,6 +34,9 @@ impl Spectrum {
             "a" => return Ok(Spectrum { name: "A".into(), shape: Shape::A }),
             _ => {}
         }
+        if let Some(sunlight) = sunlight::named(name) {
+            return Ok(sunlight);
+        }
         if let Some(rest) = name.strip_prefix(['D', 'd']) {
             if let Ok(number) = rest.parse::<u32>() {
                 return Self::named_daylight(number);
@@ -59,9 +62,10 @@ impl Spectrum {
         Ok(Spectrum { name: format!("D{number}"), ..Self::daylight(kelvin)? })
     }
 
-    /// The names of all tabulated illuminants, and of the usual computed ones.
+    /// The names of all tabulated illuminants and sunlights, and of the usual computed ones.
     pub fn names() -> impl Iterator<Item = &'static str> {
-        ["A", "E", "D50", "D55", "D65", "D75"].into_iter().chain(table::ILLUMINANTS.names.iter().copied())
+        let tables = table::ILLUMINANTS.names.iter().copied().chain(sunlight::NAMES);
+        ["A", "E", "D50", "D55", "D65", "D75"].into_iter().chain(tables)
     }
 }
 

@@ -111,7 +111,7 @@ fn tables_of_all_usual_kinds_are_read() {
     for text in texts {
         let lamp = table(text).unwrap();
         assert_eq!([lamp.at(400.0), lamp.at(450.0), lamp.at(500.0), lamp.at(501.0)], [1.0, 2.0, 3.0, 0.0], "{text}");
-        assert_eq!(lamp.energy(None), 200.0);
+        assert!((lamp.energy(None) - 200.0).abs() < 1e-9);
     }
 }
 
@@ -120,6 +120,27 @@ fn a_table_finer_than_1_nm_is_integrated_between_its_whole_nm() {
     // a triangle of height 1 between two whole nm: its area is 0.5, and a sum at 1 nm would miss it
     let text = "500,0\n500.5,1\n501,0\n501.5,0\n502,0";
     assert!((table(text).unwrap().energy(None) - 0.5).abs() < 1e-12);
+}
+
+#[test]
+fn a_table_coarser_or_beside_whole_nm_is_integrated_to_its_rows() {
+    // linear between 400.25 and 401.75 nm, 7.5 nm² under it; a sum at whole nm would miss its ends
+    let lamp = table("400.25,4\n401.75,6").unwrap();
+    assert!((lamp.energy(None) - 7.5).abs() < 1e-12);
+}
+
+#[test]
+fn sunlight_has_the_integrals_of_its_standard() {
+    // ASTM G173-03 by the trapezoid rule, W/m² and klx: lights.md, section 5
+    for (name, irradiance, illuminance) in
+        [("AM0", 1347.93, 133.10), ("AM1.5G", 1000.37, 109.50), ("AM1.5D", 900.14, 97.14)]
+    {
+        let sun = Spectrum::parse(name).unwrap();
+        let energy = sun.energy(None);
+        assert!((energy - irradiance).abs() < 0.006, "{name}: {energy} W/m²");
+        let klx = energy * sun.efficacy(sun.range(), Vision::Photopic) / 1e3;
+        assert!((klx - illuminance).abs() < 0.006, "{name}: {klx} klx");
+    }
 }
 
 #[test]
