@@ -1,4 +1,4 @@
-"""Measuring: an office of 6 x 8 m with twelve panels on a grid of 0.5 m, each point to 1 % standard error."""
+"""Measuring: an office of 6 x 8 m with twelve IES luminaires on a grid of 0.5 m, each point to 1 % standard error."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from timing import clock
 
 import lesk
 
-OFFICE = Path(__file__).resolve().parent.parent / "examples" / "scenes" / "office.toml"
+OFFICE = Path(__file__).resolve().parent.parent / "examples" / "scenes" / "office_luminaires.toml"
 # 20 s on two cores
 WANTED = 40.0
 
@@ -27,7 +27,7 @@ def run(quick: bool) -> list[Table]:
         points, worst = plane.value.size, max(worst, plane.relative_error)
     median = statistics.median(seconds)
     table = Table("Measuring", "wanted")
-    what = f"office, {points} points to 1 %, s of one core"
+    what = f"office of 12 IES luminaires, {points} points to 1 %, s of one core"
     row = Row(what, f"{median:.2f}", f"{WANTED:g}", WANTED / median, 1.0, 10.0)
     row.note = f"greatest standard error {100 * worst:.2f} %, all reflections"
     table.add(row)

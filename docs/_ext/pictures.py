@@ -20,6 +20,12 @@ SHOWN = {
     "term": lambda: lesk.plot.term("fresnel.dielectric", eta=[1.33, 1.5, 2.4]),
 }
 
+# single figures of pages
+FIGURES = {
+    "observers": lesk.plot.observers,
+    "lamps": lambda: lesk.plot.spectrum(["A", "D65", "FL2", "LED-B3"]),
+}
+
 
 def plots(name):
     """The plots of a model's page, by the ends of their names."""
@@ -87,6 +93,7 @@ def make(folder):
         paths = {folder / f"{name}-{kind}.png": draw for kind, draw in plots(name).items()}
         save(paths, fresh)
     save({folder / f"kind-{kind}.png": draw for kind, draw in SHOWN.items()}, fresh)
+    save({folder / f"{name}.png": draw for name, draw in FIGURES.items()}, fresh)
     for name, render in renders().items():
         if not fresh(folder / name):
             render(folder / name)

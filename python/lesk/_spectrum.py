@@ -132,8 +132,8 @@ def spectrum(source: str | Path) -> Spectrum:
     ----------
     source : str or path-like
         `A`, `E`, `D65` (D40 to D250), `FL1` to `FL12`, `FL3.1` to `FL3.15`, `HP1` to `HP5`, `LED-B1` and its
-        siblings, `blackbody 2856 K`, `555 nm`, `gaussian 450 nm, 20 nm` (peak, width at half maximum); or a file
-        (.csv, .spd, .txt, .dat) with two columns, wavelengths in nm and values.
+        siblings, sunlight `AM0`, `AM1.5G`, `AM1.5D` (W/m2/nm), `blackbody 2856 K`, `555 nm`, `gaussian 450 nm, 20 nm`
+        (peak, width at half maximum); or a file (.csv, .spd, .txt, .dat) with two columns, wavelengths in nm and values.
 
     Returns
     -------

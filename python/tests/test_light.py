@@ -31,6 +31,21 @@ def files(tmp_path: Path) -> Path:
     return tmp_path
 
 
+LOUVRE = Path(__file__).parents[2] / "examples" / "scenes" / "louvre.ies"
+
+
+def test_the_louvre_of_the_examples_is_its_formula():
+    lamp = lesk.light.read(LOUVRE)
+    # I = I0 cos^2 within the lower half: 4000 lm = 2 pi I0 / 3
+    peak = 3 * 4000 / (2 * math.pi)
+    angles = np.arange(0, 91, 5)
+    assert lamp.candela(angles, 0) == pytest.approx(peak * np.cos(np.radians(angles)) ** 2, abs=0.0051)
+    assert lamp.candela([95, 180], 0) == pytest.approx([0, 0], abs=1e-9)
+    # linear between its rows: -h^2/12 of the mean curvature, 0.13 %, and no more
+    assert lamp.flux_lm == pytest.approx(4000, rel=2e-3)
+    assert lamp.declared_flux_lm == 4000
+
+
 def run(capsys: pytest.CaptureFixture[str], *words: object) -> tuple[int, str, str]:
     status = main(["light", *map(str, words)])
     out, err = capsys.readouterr()
