@@ -7,6 +7,7 @@ The script refuses to write if the integrals miss those that the standard's tabl
 """
 
 import importlib.util
+import itertools
 import pathlib
 
 PACKAGE = pathlib.Path(importlib.util.find_spec("pvlib").origin).parent
@@ -17,7 +18,7 @@ head = lines[1].split(",")
 rows = [[float(number) for number in line.split(",")] for line in lines[2:]]
 for source, (name, known) in COLUMNS.items():
     column = head.index(source)
-    total = sum((b[0] - a[0]) * (a[column] + b[column]) / 2 for a, b in zip(rows, rows[1:]))
+    total = sum((b[0] - a[0]) * (a[column] + b[column]) / 2 for a, b in itertools.pairwise(rows))
     if abs(total - known) > 0.005:
         raise SystemExit(f"{name} integrates to {total} W/m2 instead of {known}")
 places = [head.index(source) for source in COLUMNS]

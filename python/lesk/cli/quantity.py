@@ -176,7 +176,9 @@ def show_demands(rows: list[dict[str, Any]]) -> None:
     """Print the table of places."""
     print(f"\n{'place of work':16} {'demanded':>8} {'reached':>8}")
     for row in rows:
-        print(f"{row['place']:16} {row['lux']:5.0f} lx {100 * row['share']:6.0f} %  {'met' if row['met'] else 'missed'}")
+        print(
+            f"{row['place']:16} {row['lux']:5.0f} lx {100 * row['share']:6.0f} %  {'met' if row['met'] else 'missed'}"
+        )
     print("(the lecture's figures; `lesk lux --tasks` has those of EN 12464-1)")
 
 
