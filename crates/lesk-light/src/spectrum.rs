@@ -2,7 +2,7 @@
 
 use crate::error::LightError;
 use lesk_quantities::observer::Observer;
-use lesk_quantities::photometry::{Range, Vision};
+use lesk_quantities::photometry::Vision;
 use lesk_quantities::{Dimension, K_M, Quantity, colorimetry, colorspace, radiometry};
 use std::fmt;
 
