@@ -1,16 +1,13 @@
 //! Batches: whole arrays of directions through a model, in any layout.
 //!
-//! Arrays are cut into blocks of [`BLOCK`] directions. Inputs that are contiguous are read in place; others are
-//! gathered into scratch rows first. Results go through scratch rows as well: that costs little, since the rows stay
-//! in the first-level cache, and it keeps loads and stores of a loop from meeting at the same 4 KB offset, which halves its speed.
-
-mod copy;
-#[cfg(target_arch = "x86_64")]
-mod shuffle;
+//! Directions that lie one after the other, as vectors or in an array per component, are read in place; others are
+//! gathered into rows first, a block at a time.
 
 pub use crate::kernels::UNIT_TOLERANCE;
-use crate::kernels::{BLOCK, Block, DRAW_OUTPUTS, Kernel, Row};
+use crate::kernels::group::LINE;
+use crate::kernels::{BLOCK, Block, DRAW_OUTPUTS, GROUP, Kernel, Row, Vectors};
 use crate::scatter::Scatter;
+pub use crate::target::Target;
 use lesk_math::{CHANNELS, Isa};
 
 /// Values of one input: element `i` stands at `data[i * stride]`; stride 0 repeats one value.
@@ -47,52 +44,6 @@ impl<'a> Column<'a> {
     }
 }
 
-/// Where the next outputs of `n` directions go.
-#[derive(Debug)]
-pub enum Target<'a, T = f32> {
-    /// One output.
-    Row(&'a mut [T]),
-    /// Several outputs, as many as the number says, those of a direction one after the other.
-    Interleaved(&'a mut [T], usize),
-    /// One output, as whether it is not 0.
-    Flags(&'a mut [bool]),
-}
-
-impl<'a, T> Target<'a, T> {
-    /// How many outputs it takes.
-    pub fn width(&self) -> usize {
-        if let Target::Interleaved(_, width) = self { *width } else { 1 }
-    }
-    /// The number of directions that it has room for.
-    pub fn rows(&self) -> usize {
-        match self {
-            Target::Row(row) => row.len(),
-            Target::Interleaved(rows, width) => rows.len() / width,
-            Target::Flags(flags) => flags.len(),
-        }
-    }
-    /// The part for the first `rows` directions, and the rest.
-    ///
-    /// # Panics
-    /// If there are fewer.
-    pub fn split_at(self, rows: usize) -> (Target<'a, T>, Target<'a, T>) {
-        match self {
-            Target::Row(all) => {
-                let (first, rest) = all.split_at_mut(rows);
-                (Target::Row(first), Target::Row(rest))
-            }
-            Target::Interleaved(all, width) => {
-                let (first, rest) = all.split_at_mut(rows * width);
-                (Target::Interleaved(first, width), Target::Interleaved(rest, width))
-            }
-            Target::Flags(all) => {
-                let (first, rest) = all.split_at_mut(rows);
-                (Target::Flags(first), Target::Flags(rest))
-            }
-        }
-    }
-}
-
 /// From this number of directions on, results go past the caches: they would not stay there anyway.
 const STREAMING: usize = 1 << 18;
 
@@ -109,7 +60,7 @@ pub fn eval(
     n: usize,
     out: &mut [Target],
 ) -> usize {
-    run(model.kernels().for_isa(isa).eval, isa, CHANNELS, params, wi, wo, n, out)
+    run(model.kernels().for_isa(isa).eval, CHANNELS, params, wi, wo, n, out)
 }
 
 /// The density of drawing `wi` given `wo`, in 1/sr: one output. Returns how many directions were not of unit length.
@@ -125,7 +76,7 @@ pub fn pdf(
     n: usize,
     out: &mut [Target],
 ) -> usize {
-    run(model.kernels().for_isa(isa).pdf, isa, 1, params, wi, wo, n, out)
+    run(model.kernels().for_isa(isa).pdf, 1, params, wi, wo, n, out)
 }
 
 /// Draws `wi` given `wo` and `u`: outputs wi.x, wi.y, wi.z, the weight's channels, pdf, delta. Returns how many `wo` were
@@ -142,56 +93,114 @@ pub fn draw(
     n: usize,
     out: &mut [Target],
 ) -> usize {
-    run(model.kernels().for_isa(isa).draw, isa, DRAW_OUTPUTS, params, u, wo, n, out)
+    run(model.kernels().for_isa(isa).draw, DRAW_OUTPUTS, params, u, wo, n, out)
 }
 
 fn run(
     kernel: Kernel,
-    isa: Isa,
     outputs: usize,
     params: &[Column],
     first: [Column; 3],
-    second: [Column; 3],
+    wo: [Column; 3],
     n: usize,
     out: &mut [Target],
 ) -> usize {
     assert!(out.iter().all(|target| target.rows() == n), "the targets need room for {n} directions");
     assert_eq!(out.iter().map(Target::width).sum::<usize>(), outputs, "outputs that the targets take");
     let uniform = params.iter().all(|p| p.stride == 0);
-    // not in a box: that would be built here and copied there
-    let (mut directions, mut rows) = ([[0.0; BLOCK]; 6], [[0.0; BLOCK]; DRAW_OUTPUTS]);
+    let whole = uniform && in_place(&first, 0, n).is_some() && in_place(&wo, 0, n).is_some();
+    let (mut first_rows, mut wo_rows) = ([[0.0; BLOCK]; 3], [[0.0; BLOCK]; 3]);
     let mut param_rows = vec![[0.0; BLOCK]; if uniform { 0 } else { params.len() }];
     let single: Vec<&[f32]> = params.iter().map(|column| &column.data[..1]).collect();
-    let columns = [first[0], first[1], first[2], second[0], second[1], second[2]];
-    let copies = copy::Copies::for_isa(isa);
     let streaming = n >= STREAMING;
     let (mut odd, mut start) = (0, 0);
     while start < n {
-        let whole = if start == 0 && streaming { copy::rows_to_line(&out[0]) } else { BLOCK };
-        let len = whole.min(n - start);
+        let len = match n - start {
+            _ if start == 0 && streaming => rows_to_line(&out[0]),
+            rest => {
+                if whole {
+                    rest
+                } else {
+                    rest.min(BLOCK)
+                }
+            }
+        };
         let varying = gather_params(params, &mut param_rows, start, len);
         let block = Block {
+            start,
             n: len,
             params: if uniform { &single } else { &varying },
             uniform,
-            directions: copies.gather(&columns, &mut directions, start, len),
+            first: gather(&first, &mut first_rows, start, len),
+            wo: gather(&wo, &mut wo_rows, start, len),
         };
         // SAFETY: `for_isa` checked that this processor has the instruction set
-        odd += unsafe { kernel(&block, &mut rows[..outputs]) } as usize;
-        copies.scatter(&rows[..outputs], out, start, len, streaming);
+        odd += unsafe { kernel(&block, out, streaming) } as usize;
         start += len;
     }
-    copy::finish(streaming);
+    finish(streaming);
     odd
+}
+
+/// How many directions to write first, so that the next ones start on a border of a cache line.
+fn rows_to_line(target: &Target) -> usize {
+    let (address, step) = match target {
+        Target::Row(row) => (row.as_ptr().addr(), size_of::<f32>()),
+        Target::Interleaved(rows, width) => (rows.as_ptr().addr(), width * size_of::<f32>()),
+        Target::Flags(flags) => (flags.as_ptr().addr(), 1),
+    };
+    (1..=GROUP).find(|k| (address + k * step).is_multiple_of(LINE)).unwrap_or(GROUP)
+}
+
+/// Vectors `start..start + n` as a loop reads them without copying.
+fn in_place<'a>(columns: &[Column<'a>; 3], start: usize, n: usize) -> Option<Vectors<'a>> {
+    let [x, y, z] = columns;
+    let is_next = |a: &Column, b: &Column| std::ptr::eq(b.data.as_ptr(), a.data.as_ptr().wrapping_add(1));
+    match [x.stride, y.stride, z.stride] {
+        [1, 1, 1] => Some(Vectors::Planes(columns.map(|column| &column.data[start..start + n]))),
+        [3, 3, 3] if is_next(x, y) && is_next(y, z) => x.data.get(3 * start..3 * (start + n)).map(Vectors::Interleaved),
+        _ => None,
+    }
+}
+
+/// Vectors `start..start + n`, in place or copied to `rows`.
+fn gather<'a>(columns: &[Column<'a>; 3], rows: &'a mut [Row; 3], start: usize, n: usize) -> Vectors<'a> {
+    if let Some(vectors) = in_place(columns, start, n) {
+        return vectors;
+    }
+    for (column, row) in columns.iter().zip(rows.iter_mut()) {
+        copy(column, row, start, n);
+    }
+    Vectors::Planes([&rows[0], &rows[1], &rows[2]])
 }
 
 /// Elements `start..start + n` of each parameter that has a row, copied to it.
 fn gather_params<'a>(params: &[Column], rows: &'a mut [Row], start: usize, n: usize) -> Vec<&'a [f32]> {
     for (column, row) in params.iter().zip(rows.iter_mut()) {
-        let from = &column.data[start * column.stride..];
-        for i in 0..n {
-            row[i] = from[i * column.stride];
+        copy(column, row, start, n);
+    }
+    rows.iter().map(|row| row.as_slice()).collect()
+}
+
+fn copy(column: &Column, row: &mut Row, start: usize, n: usize) {
+    let from = &column.data[start * column.stride..];
+    match column.stride {
+        0 => row[..n].fill(from[0]),
+        1 => row[..n].copy_from_slice(&from[..n]),
+        stride => {
+            for i in 0..n {
+                row[i] = from[i * stride];
+            }
         }
     }
-    rows.iter().map(|row| &row[..n]).collect()
+}
+
+/// After stores past the caches: other threads see them from here on.
+fn finish(streaming: bool) {
+    #[cfg(target_arch = "x86_64")]
+    if streaming {
+        // SAFETY: SSE is part of x86-64
+        unsafe { std::arch::x86_64::_mm_sfence() };
+    }
+    let _ = streaming;
 }

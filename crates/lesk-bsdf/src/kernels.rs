@@ -1,16 +1,33 @@
 //! Loops over arrays of directions, compiled once per model and instruction set, and the list of them.
 //!
-//! The loops work on blocks of at most [`BLOCK`] directions in structure-of-arrays form; `batch` cuts arrays of any
-//! layout into such blocks.
+//! A loop reads a [`Block`] and writes [`Target`]s, both in one of two layouts, [`GROUP`] directions at a time: it loads
+//! them, runs the model on all of them, which the compiler vectorises, and writes the results. So it reads memory, computes
+//! and writes at the same time; `batch` cuts arrays of any other layout into blocks.
 
 use crate::bsdf::{self, Bsdf};
 use crate::model::Domain;
 use crate::params::{Params, flat_len};
+use crate::target::Target;
 use lesk_math::{CHANNELS, Isa, Lane, Real, Vec3, vec3};
 
-/// Directions per block. All arrays stay in the first-level cache, and a block is short enough for the processor to fetch
-/// the next one meanwhile: 128 is 15 to 25 % faster than 512 from memory, and as fast from the cache.
+pub(crate) mod group;
+#[cfg(target_arch = "x86_64")]
+mod shuffle;
+
+pub(crate) use group::Plain;
+use group::{Group, Lines};
+#[cfg(target_arch = "x86_64")]
+pub(crate) use shuffle::{Avx2, Avx512};
+
+/// Directions that are computed at a time. Their results fill whole cache lines in every layout, and are written while the
+/// next ones are read and computed; with 128 the processor does one after the other.
+pub const GROUP: usize = 32;
+
+/// The most directions in a block whose arrays are made for it: they stay in the first-level cache.
 pub const BLOCK: usize = 128;
+
+/// One array of such a block.
+pub type Row = [f32; BLOCK];
 
 /// The longest flat parameter table.
 pub const MAX_PARAMS: usize = 32;
@@ -18,25 +35,35 @@ pub const MAX_PARAMS: usize = 32;
 /// Outputs of a draw: wi, weight, pdf, delta.
 pub const DRAW_OUTPUTS: usize = 3 + CHANNELS + 2;
 
-/// One array of a block; only the first `n` values are used.
-pub type Row = [f32; BLOCK];
+/// Three numbers for each direction of a block.
+#[derive(Clone, Copy)]
+pub enum Vectors<'a> {
+    /// One array per component.
+    Planes([&'a [f32]; 3]),
+    /// One vector after the other.
+    Interleaved(&'a [f32]),
+}
 
-/// One block: `n` directions, parameters of one value each or of `n` values each.
+/// A run of directions, with parameters of one value each or of one value per direction.
 pub struct Block<'a> {
+    /// The place of its first direction in the targets.
+    pub start: usize,
+    /// The number of its directions.
     pub n: usize,
     /// One entry per flat parameter, of length 1 (`uniform`) or at least `n`.
     pub params: &'a [&'a [f32]],
     pub uniform: bool,
-    /// The components of `wi` and `wo` for eval and pdf, of `u` and `wo` for draw.
-    pub directions: [&'a [f32]; 6],
+    /// `wi` for eval and pdf, `u` for draw.
+    pub first: Vectors<'a>,
+    pub wo: Vectors<'a>,
 }
 
 /// Directions whose squared length differs from 1 by more than this are counted, and give 0 only if they are not finite.
 pub const UNIT_TOLERANCE: f32 = 1e-4;
 
-/// A loop over one block, writing one row per output. Returns how many inputs were out of range: directions not of unit
-/// length, numbers `u` outside [0, 1).
-pub type Kernel = unsafe fn(&Block, &mut [Row]) -> u32;
+/// A loop over one block, writing its outputs, past the caches if so asked. Returns how many inputs were out of range:
+/// directions not of unit length, numbers `u` outside [0, 1).
+pub type Kernel = unsafe fn(&Block, &mut [Target], streaming: bool) -> u32;
 
 /// The loops of one instruction set.
 #[derive(Clone, Copy)]
@@ -74,12 +101,12 @@ impl Kernels {
     }
 }
 
-/// The body that a loop runs for one direction: reads element `i`, writes element `i` of each row.
+/// The body that a loop runs for one direction: writes element `i` of each row.
 pub(crate) trait Body<const FMA: bool, B> {
     const OUTPUTS: usize;
     /// Whether the first input is a direction, not numbers in [0, 1).
     const FIRST_IS_DIRECTION: bool;
-    fn run(domain: Domain, model: &B, first: Vec3<Lane<FMA>>, second: Vec3<Lane<FMA>>, i: usize, out: &mut [Row]);
+    fn run(domain: Domain, model: &B, first: Vec3<Lane<FMA>>, second: Vec3<Lane<FMA>>, i: usize, out: &mut [Group]);
 }
 
 pub(crate) struct Eval;
@@ -87,7 +114,7 @@ impl<const FMA: bool, B: Bsdf<Lane<FMA>>> Body<FMA, B> for Eval {
     const OUTPUTS: usize = CHANNELS;
     const FIRST_IS_DIRECTION: bool = true;
     #[inline(always)]
-    fn run(domain: Domain, model: &B, wi: Vec3<Lane<FMA>>, wo: Vec3<Lane<FMA>>, i: usize, out: &mut [Row]) {
+    fn run(domain: Domain, model: &B, wi: Vec3<Lane<FMA>>, wo: Vec3<Lane<FMA>>, i: usize, out: &mut [Group]) {
         let f = bsdf::eval(domain, model, wi, wo);
         for c in 0..CHANNELS {
             out[c][i] = f.0[c].0;
@@ -100,7 +127,7 @@ impl<const FMA: bool, B: Bsdf<Lane<FMA>>> Body<FMA, B> for Pdf {
     const OUTPUTS: usize = 1;
     const FIRST_IS_DIRECTION: bool = true;
     #[inline(always)]
-    fn run(domain: Domain, model: &B, wi: Vec3<Lane<FMA>>, wo: Vec3<Lane<FMA>>, i: usize, out: &mut [Row]) {
+    fn run(domain: Domain, model: &B, wi: Vec3<Lane<FMA>>, wo: Vec3<Lane<FMA>>, i: usize, out: &mut [Group]) {
         out[0][i] = bsdf::pdf(domain, model, wi, wo).0;
     }
 }
@@ -110,7 +137,7 @@ impl<const FMA: bool, B: Bsdf<Lane<FMA>>> Body<FMA, B> for Draw {
     const OUTPUTS: usize = DRAW_OUTPUTS;
     const FIRST_IS_DIRECTION: bool = false;
     #[inline(always)]
-    fn run(domain: Domain, model: &B, u: Vec3<Lane<FMA>>, wo: Vec3<Lane<FMA>>, i: usize, out: &mut [Row]) {
+    fn run(domain: Domain, model: &B, u: Vec3<Lane<FMA>>, wo: Vec3<Lane<FMA>>, i: usize, out: &mut [Group]) {
         let s = bsdf::draw(domain, model, wo, u.to_array());
         out[0][i] = s.wi.x.0;
         out[1][i] = s.wi.y.0;
@@ -143,44 +170,61 @@ fn is_outside<const FMA: bool>(u: Vec3<Lane<FMA>>) -> bool {
 
 /// The loop. Everything in it is inlined into the caller, whose instruction set it thereby gets.
 #[inline(always)]
-pub(crate) fn run_block<const FMA: bool, B, F>(domain: Domain, block: &Block, out: &mut [Row]) -> u32
+pub(crate) fn run_block<const FMA: bool, L, B, F>(
+    domain: Domain,
+    block: &Block,
+    targets: &mut [Target],
+    streaming: bool,
+) -> u32
 where
+    L: Lines,
     B: Params<Lane<FMA>>,
     F: Body<FMA, B>,
 {
-    let n = block.n.min(BLOCK);
-    let params = block.params;
-    let [ax, ay, az, bx, by, bz] = block.directions;
-    let [ax, ay, az, bx, by, bz] = [&ax[..n], &ay[..n], &az[..n], &bx[..n], &by[..n], &bz[..n]];
-    let out = &mut out[..F::OUTPUTS];
-    let lane = |row: &[f32], i: usize| Lane::<FMA>(row[i]);
-    let mut odd = 0;
-    if block.uniform {
-        let model = B::gather(|p| Lane(params[p][0]));
-        for i in 0..n {
-            let (a, b) = (vec3(lane(ax, i), lane(ay, i), lane(az, i)), vec3(lane(bx, i), lane(by, i), lane(bz, i)));
-            odd += u32::from(if F::FIRST_IS_DIRECTION { is_odd(a) } else { is_outside(a) }) + u32::from(is_odd(b));
-            F::run(domain, &model, a, b, i, out);
+    // a count per place: adding up across a vector takes as long as a cheap model
+    let mut odd = [0; GROUP];
+    let mut out = [[0.0; GROUP]; DRAW_OUTPUTS];
+    let (mut first, mut second) = ([[0.0; GROUP]; 3], [[0.0; GROUP]; 3]);
+    let uniform = block.uniform.then(|| B::gather(|p| Lane(block.params[p][0])));
+    let rows = rows_of::<B, FMA>(block);
+    for start in (0..block.n).step_by(GROUP) {
+        let n = GROUP.min(block.n - start);
+        let [ax, ay, az] = group::load::<L>(&block.first, start, n, &mut first);
+        let [bx, by, bz] = group::load::<L>(&block.wo, start, n, &mut second);
+        let [ax, ay, az, bx, by, bz] = [&ax[..n], &ay[..n], &az[..n], &bx[..n], &by[..n], &bz[..n]];
+        if let Some(model) = &uniform {
+            for i in 0..n {
+                let (a, b) = (vec3(Lane(ax[i]), Lane(ay[i]), Lane(az[i])), vec3(Lane(bx[i]), Lane(by[i]), Lane(bz[i])));
+                odd[i] += count_odd::<FMA, B, F>(a, b);
+                F::run(domain, model, a, b, i, &mut out);
+            }
+        } else {
+            for i in 0..n {
+                // SAFETY: `rows_of` checked that each row has `block.n` values; start + i is less
+                let model = B::gather(|p| Lane(unsafe { *rows[p].add(start + i) }));
+                let (a, b) = (vec3(Lane(ax[i]), Lane(ay[i]), Lane(az[i])), vec3(Lane(bx[i]), Lane(by[i]), Lane(bz[i])));
+                odd[i] += count_odd::<FMA, B, F>(a, b);
+                F::run(domain, &model, a, b, i, &mut out);
+            }
         }
-    } else {
-        let rows = rows_of::<B, FMA>(params, n);
-        for i in 0..n {
-            // SAFETY: `rows_of` checked that each row has n values; i < n
-            let model = B::gather(|p| Lane(unsafe { *rows[p].add(i) }));
-            let (a, b) = (vec3(lane(ax, i), lane(ay, i), lane(az, i)), vec3(lane(bx, i), lane(by, i), lane(bz, i)));
-            odd += u32::from(if F::FIRST_IS_DIRECTION { is_odd(a) } else { is_outside(a) }) + u32::from(is_odd(b));
-            F::run(domain, &model, a, b, i, out);
-        }
+        group::store::<L>(&out[..F::OUTPUTS], targets, block.start + start, n, streaming);
     }
-    odd
+    odd.iter().sum()
 }
 
-/// Pointers to the first `n` values of each parameter: a slice of slices in the loop would keep it from vectorising.
+/// How many of two inputs are out of range.
 #[inline(always)]
-fn rows_of<B: Params<Lane<FMA>>, const FMA: bool>(params: &[&[f32]], n: usize) -> [*const f32; MAX_PARAMS] {
+fn count_odd<const FMA: bool, B, F: Body<FMA, B>>(a: Vec3<Lane<FMA>>, b: Vec3<Lane<FMA>>) -> u32 {
+    u32::from(if F::FIRST_IS_DIRECTION { is_odd(a) } else { is_outside(a) }) + u32::from(is_odd(b))
+}
+
+/// Pointers to the values of each parameter: a slice of slices in the loop would keep it from vectorising.
+#[inline(always)]
+fn rows_of<B: Params<Lane<FMA>>, const FMA: bool>(block: &Block) -> [*const f32; MAX_PARAMS] {
     let mut rows = [std::ptr::null(); MAX_PARAMS];
+    let n = if block.uniform { 1 } else { block.n };
     for p in 0..const { flat_len(B::SPECS) } {
-        rows[p] = params[p][..n].as_ptr();
+        rows[p] = block.params[p][..n].as_ptr();
     }
     rows
 }

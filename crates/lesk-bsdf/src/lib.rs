@@ -11,6 +11,7 @@ pub mod params;
 mod prelude;
 pub mod registry;
 pub mod scatter;
+mod target;
 pub mod terms;
 
 pub use scatter::Scatter;

@@ -59,20 +59,21 @@ macro_rules! methods {
 pub(crate) use methods;
 
 macro_rules! kernel_set {
-    ($fma:literal, $Type:ident, $MODEL:expr $(, $feature:literal)?) => {{
+    ($fma:literal, $Lines:ty, $Type:ident, $MODEL:expr $(, $feature:literal)?) => {{
         type M = $Type<lesk_math::Lane<$fma>>;
-        use crate::kernels::{Block, Draw, Eval, Pdf, Row, run_block};
+        use crate::kernels::{Block, Draw, Eval, Pdf, run_block};
+        use crate::target::Target;
         $(#[target_feature(enable = $feature)])?
-        unsafe fn eval(block: &Block, out: &mut [Row]) -> u32 {
-            run_block::<$fma, M, Eval>($MODEL.domain, block, out)
+        unsafe fn eval(block: &Block, out: &mut [Target], streaming: bool) -> u32 {
+            run_block::<$fma, $Lines, M, Eval>($MODEL.domain, block, out, streaming)
         }
         $(#[target_feature(enable = $feature)])?
-        unsafe fn pdf(block: &Block, out: &mut [Row]) -> u32 {
-            run_block::<$fma, M, Pdf>($MODEL.domain, block, out)
+        unsafe fn pdf(block: &Block, out: &mut [Target], streaming: bool) -> u32 {
+            run_block::<$fma, $Lines, M, Pdf>($MODEL.domain, block, out, streaming)
         }
         $(#[target_feature(enable = $feature)])?
-        unsafe fn draw(block: &Block, out: &mut [Row]) -> u32 {
-            run_block::<$fma, M, Draw>($MODEL.domain, block, out)
+        unsafe fn draw(block: &Block, out: &mut [Target], streaming: bool) -> u32 {
+            run_block::<$fma, $Lines, M, Draw>($MODEL.domain, block, out, streaming)
         }
         crate::kernels::KernelSet { eval, pdf, draw }
     }};
@@ -123,11 +124,17 @@ macro_rules! instantiate {
             gradient,
             recorded: methods!(Expr, $Type, MODEL),
             kernels: crate::kernels::Kernels {
-                baseline: kernel_set!(false, $Type, MODEL),
+                baseline: kernel_set!(false, crate::kernels::Plain, $Type, MODEL),
                 #[cfg(target_arch = "x86_64")]
-                avx2: kernel_set!(true, $Type, MODEL, "avx2,fma"),
+                avx2: kernel_set!(true, crate::kernels::Avx2, $Type, MODEL, "avx2,fma"),
                 #[cfg(target_arch = "x86_64")]
-                avx512: kernel_set!(true, $Type, MODEL, "avx512f,avx512vl,avx512bw,avx512dq,avx2,fma"),
+                avx512: kernel_set!(
+                    true,
+                    crate::kernels::Avx512,
+                    $Type,
+                    MODEL,
+                    "avx512f,avx512vl,avx512bw,avx512dq,avx2,fma"
+                ),
             },
         };
     };

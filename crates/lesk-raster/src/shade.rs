@@ -4,7 +4,8 @@ use crate::classic::{ambient_term, color, light_term};
 use crate::lanes::{Lanes, Points, Sides, Work};
 use crate::lights::{Source, at, sources};
 use crate::{Classic, ClassicLight, Mode, Settings, Space};
-use lesk_bsdf::kernels::{BLOCK, Block, Kernel};
+use lesk_bsdf::batch::Target;
+use lesk_bsdf::kernels::{BLOCK, Block, Kernel, Vectors};
 use lesk_bsdf::model::{Domain, Property};
 use lesk_geometry::{Detail, Ray, Surface, World};
 use lesk_image::tonemap::srgb_decode;
@@ -268,9 +269,10 @@ pub(crate) fn is_isotropic(material: &Material) -> bool {
 fn evaluate(kernel: Kernel, n: usize, params: &[&[f32]], uniform: bool, work: &mut Work) {
     let (wi, wo) = (&work.wi_local, &work.wo_local);
     let [wi, wo] = [wi, wo].map(|w| [&w[0][..n], &w[1][..n], &w[2][..n]]);
-    let block = Block { n, params, uniform, directions: [wi[0], wi[1], wi[2], wo[0], wo[1], wo[2]] };
+    let block = Block { start: 0, n, params, uniform, first: Vectors::Planes(wi), wo: Vectors::Planes(wo) };
+    let mut targets = work.f.each_mut().map(|row| Target::Row(&mut row[..n]));
     // SAFETY: the kernel is one of an instruction set that this processor has
-    unsafe { kernel(&block, &mut work.f) };
+    unsafe { kernel(&block, &mut targets, false) };
 }
 
 /// Parameters of the model at the points of a block, one row each.
