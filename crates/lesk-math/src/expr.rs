@@ -249,6 +249,8 @@ impl Bits for Expr {
         unary(Unary::Exp2Int, self)
     }
     fn split(self) -> (Expr, Expr) {
-        (unary(Unary::Mantissa, self), unary(Unary::Exponent, self))
+        let (m, e) = (unary(Unary::Mantissa, self), unary(Unary::Exponent, self));
+        let big = m.gt(Expr::lit(core::f64::consts::SQRT_2));
+        (Expr::select(big, m * Expr::HALF, m), Expr::select(big, e + Expr::ONE, e))
     }
 }

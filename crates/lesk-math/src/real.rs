@@ -152,7 +152,7 @@ pub const TINY: f64 = 1.1754943508222875e-38;
 pub trait Bits: Real {
     /// `2^self` for an integral `self` in [-126, 127].
     fn exp2_int(self) -> Self;
-    /// Mantissa in [1, 2) and exponent of a positive normal number.
+    /// Mantissa in [sqrt(1/2), sqrt(2)) and exponent of a positive normal number.
     fn split(self) -> (Self, Self);
 }
 
@@ -262,15 +262,17 @@ impl Real for f32 {
 impl Bits for f32 {
     #[inline(always)]
     fn exp2_int(self) -> f32 {
-        // SAFETY: `poly` calls it with |self| <= 127 only; a saturating cast would not vectorise
-        let n: i32 = unsafe { self.to_int_unchecked() };
-        f32::from_bits(((n + 127) << 23) as u32)
+        // 1.5 * 2^23 + 127: the sum has self + 127, the biased exponent, in its lowest bits
+        const MAGIC: f32 = 12583039.0;
+        f32::from_bits((self + MAGIC).to_bits() << 23)
     }
     #[inline(always)]
     fn split(self) -> (f32, f32) {
-        let bits = self.to_bits();
-        let mantissa = f32::from_bits((bits & 0x007f_ffff) | 0x3f80_0000);
-        (mantissa, ((bits >> 23) as i32 - 127) as f32)
+        // the bits of sqrt(1/2): what is at least a power of two above them belongs to a higher exponent
+        const LOWEST: i32 = 0x3f35_04f3;
+        let bits = self.to_bits() as i32;
+        let exponent = bits.wrapping_sub(LOWEST) >> 23;
+        (f32::from_bits(bits.wrapping_sub(exponent << 23) as u32), exponent as f32)
     }
 }
 

@@ -1,6 +1,6 @@
 //! Lobes that several models have.
 
-use lesk_math::{Frame, Real, TINY, Vec3, vec3};
+use lesk_math::{Frame, Real, Vec3, vec3};
 
 /// A direction with density cos/pi around +z.
 #[inline(always)]
@@ -19,7 +19,7 @@ pub fn cos_mirror<R: Real>(wi: Vec3<R>, wo: Vec3<R>) -> R {
 /// cos^n, or 0 on the far side (cos <= 0), also for n = 0.
 #[inline(always)]
 pub fn cos_power<R: Real>(cos: R, n: R) -> R {
-    R::select(cos.gt(R::ZERO), cos.max(R::lit(TINY)).pow(n), R::ZERO)
+    R::select(cos.gt(R::ZERO), cos.pow(n), R::ZERO)
 }
 
 /// cos^n of the polar angle of `h` (z > 0, any length): (1 + tan^2)^(-n/2), as the cosine itself has no digits left for

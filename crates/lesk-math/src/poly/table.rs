@@ -1,8 +1,7 @@
 //! Minimax coefficients in ascending powers, as `data/poly/make.py` prints them. Every entry is an exact `f32`.
 
 /// `2^x on [-0.5, 0.5]`; relative error 3.0e-09 before the rounding of the evaluation.
-pub const EXP2: [f64; 7] = [
-    1.0,
+pub const EXP2: [f64; 6] = [
     0.6931471824645996,
     0.24022647738456726,
     0.05550359934568405,
@@ -12,8 +11,8 @@ pub const EXP2: [f64; 7] = [
 ];
 
 /// `e^x on [-0.3469, 0.3469]`; relative error 3.1e-09 before the rounding of the evaluation.
-pub const EXP: [f64; 7] =
-    [1.0, 1.0, 0.4999999403953552, 0.1666652113199234, 0.04166827350854874, 0.00836868491023779, 0.001382010756060481];
+pub const EXP: [f64; 6] =
+    [1.0, 0.4999999403953552, 0.1666652113199234, 0.04166827350854874, 0.00836868491023779, 0.001382010756060481];
 
 /// `log2(1 + t) / t on [-0.2929, 0.4142]`; relative error 2.8e-08 before the rounding of the evaluation.
 pub const LOG2: [f64; 9] = [
