@@ -263,7 +263,7 @@ impl Shaded {
             }
             subdivide(&mut vertices, &mut sizes);
         }
-        let tangents = if tangents { split(&mut vertices, &sizes) } else { Vec::new() };
+        let tangents = if tangents { split(&mut vertices, &sizes, geometry.mesh().map(|m| &**m)) } else { Vec::new() };
         let cut = settings.interpolation == Interpolation::Barycentric && settings.shading != Mode::Flat;
         if !cut {
             return Ok(Shaded { vertices, sizes, tangents });

@@ -8,10 +8,12 @@ use std::collections::HashMap;
 /// A tangent along growing u and the hand: -1 where v grows against n x t, else 1; all zero where there is none.
 pub(crate) type Tangent = [f32; 4];
 
-/// Gives every vertex the tangent that bakers of normal maps use (MikkTSpace, [`Mesh::with_tangents`]); a vertex whose
-/// corners have different ones becomes several. Without texture coordinates all are zero.
-pub(crate) fn split(vertices: &mut Vertices, sizes: &[u32]) -> Vec<Tangent> {
-    let own = of_corners(vertices, sizes).unwrap_or_else(|| vec![[0.0; 4]; vertices.corners.len()]);
+/// Gives every vertex the tangent that its mesh states, as the path tracer sees it; else, for faces that are not those of
+/// the mesh, the one that bakers of normal maps use (MikkTSpace, [`Mesh::with_tangents`]). A vertex whose corners have
+/// different ones becomes several. Without texture coordinates all are zero.
+pub(crate) fn split(vertices: &mut Vertices, sizes: &[u32], mesh: Option<&Mesh>) -> Vec<Tangent> {
+    let own = mesh.and_then(|mesh| stated(vertices, sizes, mesh)).or_else(|| of_corners(vertices, sizes));
+    let own = own.unwrap_or_else(|| vec![[0.0; 4]; vertices.corners.len()]);
     let mut known = HashMap::new();
     let mut out = Vertices::default();
     let mut tangents = Vec::new();
@@ -28,6 +30,19 @@ pub(crate) fn split(vertices: &mut Vertices, sizes: &[u32]) -> Vec<Tangent> {
     }
     *vertices = out;
     tangents
+}
+
+/// The tangents of a mesh at the corners of faces, where those are its triangles.
+fn stated(vertices: &Vertices, sizes: &[u32], mesh: &Mesh) -> Option<Vec<Tangent>> {
+    let corners = mesh.triangles().as_flattened();
+    let same = |(&own, &other): (&u32, &u32)| vertices.positions[own as usize] == mesh.positions()[other as usize];
+    let all = sizes.len() == mesh.triangles().len()
+        && corners.len() == vertices.corners.len()
+        && vertices.corners.iter().zip(corners).all(same);
+    if mesh.tangents().is_empty() || !all {
+        return None;
+    }
+    Some(corners.iter().map(|&v| mesh.tangents()[v as usize]).collect())
 }
 
 /// The tangent of each corner of the faces: that of the first triangle of its face which has it.

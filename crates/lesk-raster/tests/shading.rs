@@ -1,9 +1,10 @@
 //! Pictures whose answer is known, and what must not change them.
 
-use lesk_raster::{Classic, ClassicLight, Correction, Frame, Interpolation, Mode, Raster, Settings, Space};
+use lesk_raster::{Classic, ClassicLight, Correction, Count, Frame, Interpolation, Mode, Raster, Settings, Space};
 use lesk_scene::Scene;
 use std::f64::consts::PI;
 use std::sync::Arc;
+use std::time::Duration;
 
 fn parse(text: &str) -> Scene {
     Scene::parse(text, ".").unwrap_or_else(|e| panic!("{e}"))
@@ -122,26 +123,40 @@ fn bilinear_gouraud_changes_when_the_picture_turns_and_barycentric_does_not() {
 }
 
 #[test]
-fn pictures_are_the_same_for_any_number_of_threads() {
+fn pictures_are_the_same_for_any_number_of_threads_and_in_used_memory() {
     let text = include_str!("../../../examples/scenes/demo.toml");
-    let mut scene = Scene::parse(text, concat!(env!("CARGO_MANIFEST_DIR"), "/../../examples/scenes")).unwrap();
-    (scene.film.width, scene.film.height) = (160, 121);
-    let view = lesk_scene::Camera::new(*scene.camera.world_from_local(), [160, 121], 0.8, 0.0, 1.0).unwrap();
-    scene.camera = view;
-    for shading in [Mode::Flat, Mode::Gouraud, Mode::Phong] {
+    let mut demo = Scene::parse(text, concat!(env!("CARGO_MANIFEST_DIR"), "/../../examples/scenes")).unwrap();
+    (demo.film.width, demo.film.height) = (160, 121);
+    demo.camera = lesk_scene::Camera::new(*demo.camera.world_from_local(), [160, 121], 0.8, 0.0, 1.0).unwrap();
+    // three chunks of faces each, and every depth twice: the first face shows
+    let ball = "shape = \"sphere\"\n[[objects]]\nmaterial = \"b\"\nshape = \"sphere\"\n";
+    let twins =
+        from_above([0.0, 1.0, 0.0], ball, &format!("{LAMP}[materials.b]\nmodel = \"lambert\"\nreflectance = 0.1"));
+    for (scene, shading) in
+        [(&demo, Mode::Flat), (&demo, Mode::Gouraud), (&demo, Mode::Phong), (&twins, Mode::Flat), (&twins, Mode::Phong)]
+    {
         let settings = with(|s| {
-            s.shading = shading;
-            s.aovs = true;
+            (s.shading, s.aovs, s.tessellation) = (shading, true, 160);
         });
-        let picture = |threads| {
+        let pictures = |threads| {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-            pool.install(|| frame(&scene, &settings))
+            pool.install(|| {
+                let mut raster = Raster::new(Arc::new(scene.clone()), &settings).unwrap_or_else(|e| panic!("{e}"));
+                let first = raster.frame();
+                let mut second = first.clone();
+                raster.draw(&mut second);
+                [first, second]
+            })
         };
-        let one = picture(1);
+        let result = |f: &Frame| {
+            let work = Count { elapsed: Duration::ZERO, ..f.work };
+            (f.rgb.iter().map(|v| v.to_bits()).collect::<Vec<_>>(), f.hits.clone(), work)
+        };
+        let [one, again] = pictures(1).map(|f| result(&f));
+        assert!(one.2.samples > 1000 && one == again, "{shading:?}, again");
         for threads in [2, 5] {
-            let many = picture(threads);
-            let bits = |f: &Frame| f.rgb.iter().map(|v| v.to_bits()).collect::<Vec<_>>();
-            assert!(bits(&one) == bits(&many) && one.hits == many.hits, "{shading:?}, {threads} threads");
+            let all = pictures(threads).iter().all(|many| result(many) == one);
+            assert!(all, "{shading:?}, {threads} threads");
         }
     }
 }
@@ -299,6 +314,59 @@ fn an_area_light_by_quadrature_approaches_the_closed_form_of_a_disk() {
     let expected = 0.6 / PI * PI * 1000.0 * 0.25 / (36.0 + 0.25);
     // small and far: the integrand varies by 1 %, 256 points integrate it to better than a tenth of that
     assert!((middle / expected - 1.0).abs() < 1e-3, "{middle} {expected}");
+}
+
+#[test]
+fn a_spot_lights_a_floor_by_its_formula_on_its_axis_and_off_it() {
+    // 2 m above the origin, looking down: theta is the angle to its axis and at the floor, d = 2/cos(theta), and
+    // L = rho/pi I(theta) cos(theta)/d^2 with I = I0 s^2 (3 - 2s), s = (cos(theta) - cos(30 deg))/(cos(10 deg) - cos(30 deg))
+    let spot = "[[lights]]\ntype = \"spot\"\nposition = [0, 0, 2]\ndirection = [0, 0, -1]\ninner = \"10 deg\"\n\
+                outer = \"30 deg\"\nintensity = \"100 cd\"\n";
+    for shading in [Mode::Phong, Mode::Gouraud] {
+        // the cone ends before the corners of the square: Gouraud shading misses it
+        let frame = frame(&from_above([0.0, 1.0, 0.0], SQUARE, spot), &with(|s| s.shading = shading));
+        let (mut full, mut partly, mut dark) = (0, 0, 0);
+        for (k, rgb) in frame.rgb.as_chunks::<3>().0.iter().enumerate() {
+            let [x, y] = on_plane(k % 64, k / 64);
+            if x.abs() > 1.0 || y.abs() > 1.0 || shading == Mode::Gouraud {
+                assert_eq!(*rgb, [0.0; 3]);
+                continue;
+            }
+            let cosine = 2.0 / (x * x + y * y + 4.0).sqrt();
+            let [inner, outer] = [10f64, 30.0].map(|a| a.to_radians().cos());
+            let s = ((cosine - outer) / (inner - outer)).clamp(0.0, 1.0);
+            let expected = 0.6 / PI * 100.0 * s * s * (3.0 - 2.0 * s) * cosine.powi(3) / 4.0;
+            // bilinear weights on a grid of 1/256 pixel; the falloff is steepest in the middle of the step, 5 % per pixel
+            assert!((f64::from(rgb[0]) - expected).abs() < 2e-4 * 0.6 / PI * 25.0, "{x} {y}: {rgb:?} {expected}");
+            full += usize::from(s == 1.0);
+            partly += usize::from(s > 0.0 && s < 1.0);
+            dark += usize::from(s == 0.0);
+        }
+        if shading == Mode::Phong {
+            assert!(full > 100 && partly > 500 && dark > 100, "{full} {partly} {dark}");
+        }
+    }
+}
+
+#[test]
+fn a_plate_under_a_uniform_sky_has_the_luminance_of_its_reflectance() {
+    // E = pi L, so the plate shows rho L
+    let sky = "[environment]\ntype = \"sky\"\nluminance = \"1000 cd/m2\"\n";
+    let middle = |object: &str, sky: &str| {
+        let frame = frame(&from_above([0.0, 1.0, 0.0], object, sky), &with(|s| s.quadrature = 1024));
+        (f64::from(frame.rgb[3 * (32 * 64 + 32)]), f64::from(frame.rgb[0]))
+    };
+    // Hammersley's 1024 points: the mean of a cosine over the half sphere to 1 %
+    let (plate, behind) = middle(SQUARE, sky);
+    assert!((plate / 600.0 - 1.0).abs() < 0.01, "{plate}");
+    assert_eq!(behind, 1000.0);
+    let dome = format!("{sky}dome = true\n");
+    let (above, _) = middle(SQUARE, &dome);
+    assert!((above / 600.0 - 1.0).abs() < 0.01, "{above}");
+    let tilted = format!("{SQUARE}\ntransform = {{ rotate = \"60 deg\", axis = [1, 0, 0] }}");
+    let (side, _) = middle(&tilted, &dome);
+    // a plate that leans by b sees the share (1 + cos b)/2 of the dome
+    assert!((side / (600.0 * 0.75) - 1.0).abs() < 0.02, "{side}");
 }
 
 #[test]

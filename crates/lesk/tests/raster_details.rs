@@ -107,6 +107,54 @@ fn a_bumpy_map_on_a_curved_mesh_equals_the_path_tracer() {
 }
 
 #[test]
+fn tangents_of_a_file_count_in_both_engines() {
+    // two triangles with u along +x, whose file says that normal maps go along +y
+    let folder = tempfile::tempdir().unwrap();
+    map(folder.path(), |_, _| [0.6, 0.0, 0.8]);
+    let (corners, tangent) = ([[-1.5, -1.5], [1.5, -1.5], [1.5, 1.5], [-1.5, 1.5]], [0.0f32, 1.0, 0.0, 1.0]);
+    let floats = [
+        corners.iter().flat_map(|&[x, y]| [x, y, 0.0]).collect::<Vec<f32>>(),
+        corners.iter().flat_map(|_| [0.0, 0.0, 1.0]).collect(),
+        corners.iter().flat_map(|&[x, y]| [x / 3.0 + 0.5, y / 3.0 + 0.5]).collect(),
+        corners.iter().flat_map(|_| tangent).collect(),
+    ];
+    let mut bytes: Vec<u8> = floats.iter().flatten().flat_map(|x| x.to_le_bytes()).collect();
+    bytes.extend([0u16, 1, 2, 0, 2, 3].iter().flat_map(|i| i.to_le_bytes()));
+    std::fs::write(folder.path().join("a.bin"), &bytes).unwrap();
+    let gltf = r#"{ "asset": { "version": "2.0" }, "scene": 0, "scenes": [{ "nodes": [0] }], "nodes": [{ "mesh": 0 }],
+        "meshes": [{ "primitives": [{ "attributes":
+            { "POSITION": 0, "NORMAL": 1, "TEXCOORD_0": 2, "TANGENT": 3 }, "indices": 4 }] }],
+        "buffers": [{ "uri": "a.bin", "byteLength": 204 }],
+        "bufferViews": [{ "buffer": 0, "byteLength": 48 }, { "buffer": 0, "byteOffset": 48, "byteLength": 48 },
+            { "buffer": 0, "byteOffset": 96, "byteLength": 32 }, { "buffer": 0, "byteOffset": 128, "byteLength": 64 },
+            { "buffer": 0, "byteOffset": 192, "byteLength": 12 }],
+        "accessors": [
+            { "bufferView": 0, "componentType": 5126, "count": 4, "type": "VEC3", "min": [-1.5, -1.5, 0], "max": [1.5, 1.5, 0] },
+            { "bufferView": 1, "componentType": 5126, "count": 4, "type": "VEC3" },
+            { "bufferView": 2, "componentType": 5126, "count": 4, "type": "VEC2" },
+            { "bufferView": 3, "componentType": 5126, "count": 4, "type": "VEC4" },
+            { "bufferView": 4, "componentType": 5123, "count": 6, "type": "SCALAR" }] }"#;
+    std::fs::write(folder.path().join("a.gltf"), gltf).unwrap();
+    let model = format!("model = \"lambert\"\nreflectance = 0.5\n{MAPPED}");
+    let sun = "[[lights]]\ntype = \"directional\"\ndirection = [0, -0.6, -0.8]\nilluminance = \"1000 lx\"\n";
+    let mesh = "[[objects]]\nmaterial = \"m\"\nshape = \"mesh\"\nfile = \"a.gltf\"\n";
+    let scene = scene(folder.path(), [0.0, -0.1, 4.0], &model, mesh, sun);
+    // leaning along +y, the normal meets the sun
+    let expected = 0.5 * 1000.0 / PI;
+    let near = |value: f64| (value / expected - 1.0).abs() < 5e-3;
+    for shading in [Mode::Gouraud, Mode::Phong] {
+        let (frame, _) = draw(&scene, &Settings { shading, ..Settings::default() });
+        let middle = f64::from(frame.rgb[3 * (SIZE / 2 * SIZE + SIZE / 2) as usize]);
+        assert!(near(middle), "{shading:?}: {middle} {expected}");
+    }
+    let mut sampler = Sampler::new(1);
+    sampler.start(0, 0);
+    let ray = scene.camera.ray([60.5, 60.5], [0.5; 2]);
+    let light = lesk::trace::radiance(&scene, &scene.render, ray, &mut sampler);
+    assert!(near(f64::from(light[0])), "path: {light:?} {expected}");
+}
+
+#[test]
 fn a_brushed_material_keeps_its_direction_when_it_is_lit_at_vertices() {
     // fine faces: all modes show the same, so the vertices must know the direction of the brush
     let ward = "model = \"ward\"\nalpha_x = 0.1\nalpha_y = 0.5";
