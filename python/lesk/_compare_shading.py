@@ -26,6 +26,8 @@ CURVES = {"flat": "#0072b2", "gouraud": "#d55e00", "phong": "#009e73"}
 TITLES = {"flat": "flat", "gouraud": "Gouraud", "phong": "Phong"}
 TESSELLATIONS = (6, 8, 12, 16, 24, 32, 48, 64, 96, 128)
 SUBDIVISIONS = (0, 1, 2, 3, 4)
+COARSE = 8
+"""Faces around curved shapes beside meshes that are not subdivided yet."""
 MOST_FACES = 2_000_000
 """Of the finest mesh, which is the truth of a curve."""
 
@@ -41,7 +43,7 @@ class Comparison:
     errors: dict[str, float]
     """Root of the mean squared difference to the reference over its mean luminance, per mode."""
     curve: list[dict[str, Any]]
-    """`faces`, `errors` per mode, and `tessellation` of curved shapes or, in scenes of meshes alone, `subdivide`."""
+    """`faces`, `errors` per mode, and `tessellation` of curved shapes, `subdivide` of meshes and rectangles, or both."""
 
     def facts(self) -> dict[str, Any]:
         """Give the numbers."""
@@ -91,9 +93,11 @@ def compare_shading(
     crease_angle_deg : float or str
         As for `lesk.shade`.
     curve : bool
-        Whether to measure errors for 6 to 128 faces around curved shapes against the true shapes. A scene of meshes alone
-        is subdivided up to four times on the surface that its normals state, as far as 2 million faces; there the direct
-        light of the finest faces, path traced, is the truth.
+        Whether to measure errors against the number of faces. Curved shapes alone: 6 to 128 faces around them, against
+        the true shapes. With meshes or rectangles, these are subdivided up to four times on the surface that their normals state, as
+        far as 2 million faces, while curved shapes get 8, 16, ... faces around; there the direct light of the finest
+        faces, path traced, is the truth. The first point is a mesh with its own normals, finer ones have those of their
+        faces.
 
     Returns
     -------
@@ -114,11 +118,11 @@ def compare_shading(
         "supersampling": 1,
     }
 
-    def picture(mode: str, around: int, *, times: int = 1, subdivide: int = 0, aovs: bool = False) -> Shading:
+    def picture(mode: str, tessellation: int, *, times: int = 1, subdivide: int = 0, aovs: bool = False) -> Shading:
         return shade(
             scene,
             shading=mode,
-            tessellation=around,
+            tessellation=tessellation,
             subdivide=subdivide,
             aovs=aovs,
             frames=times,
@@ -132,25 +136,32 @@ def compare_shading(
         # layers cost more than flat light
         one.milliseconds = picture(mode, tessellation, times=max(frames, 2)).milliseconds
     errors = {mode: _error(one.rgb, truth) for mode, one in shaded.items()}
-    points = []
-    for around in TESSELLATIONS if curve else ():
-        several = {mode: picture(mode, around) for mode in MODES}
-        faces = several["flat"].counts["faces"]
-        own = {mode: _error(one.rgb, truth) for mode, one in several.items()}
-        points.append({"tessellation": around, "faces": faces, "errors": own})
-    if len({p["faces"] for p in points}) == 1:
-        faces = several["flat"].counts["faces"]
-        levels = [n for n in SUBDIVISIONS if faces * 4**n <= MOST_FACES]
+
+    def measure(steps: Sequence[dict[str, int]], limit: Array) -> list[dict[str, Any]]:
         points = []
-        # a picture without light has no relative error
-        finest = levels[-1] if len(levels) > 1 and truth.any() else 0
-        if finest:
-            surfaces = _lesk.shaded_surfaces(scene, wishes(subdivide=finest, **options))
-            limit = render(surfaces, spp=spp, max_depth=1).rgb.astype(float)
-        for level in range(finest):
-            several = {mode: picture(mode, tessellation, subdivide=level) for mode in MODES}
+        for step in steps:
+            around, level = step.get("tessellation", tessellation), step.get("subdivide", 0)
+            several = {mode: picture(mode, around, subdivide=level) for mode in MODES}
             own = {mode: _error(one.rgb, limit) for mode, one in several.items()}
-            points.append({"subdivide": level, "faces": several["flat"].counts["faces"], "errors": own})
+            points.append({**step, "faces": several["flat"].counts["faces"], "errors": own})
+        return points
+
+    def faces(around: int, level: int = 0) -> int:
+        return picture("flat", around, subdivide=level).counts["faces"]
+
+    # a picture without light has no relative error
+    if not (curve and truth.any()):
+        return Comparison(shaded, reference, errors, [])
+    coarse = faces(COARSE)
+    curved = faces(2 * COARSE) > coarse
+    levels = [n for n in SUBDIVISIONS if coarse * 4**n <= MOST_FACES]
+    if len(levels) < 2 or faces(COARSE, 1) == coarse:
+        steps = [{"tessellation": n} for n in TESSELLATIONS] if curved else []
+        return Comparison(shaded, reference, errors, measure(steps, truth))
+    # each step halves the size of all faces
+    steps = [{"subdivide": n, **({"tessellation": COARSE << n} if curved else {})} for n in levels]
+    surfaces = _lesk.shaded_surfaces(scene, wishes(**{"tessellation": tessellation, **steps[-1]}, **options))
+    points = measure(steps[:-1], render(surfaces, spp=spp, max_depth=1).rgb.astype(float))
     return Comparison(shaded, reference, errors, points)
 
 
@@ -232,7 +243,7 @@ def _curve(figure: Figure, axes: npt.NDArray[Any], curve: Sequence[dict[str, Any
     place = figure.add_subplot(grid[2, 2:])
     if not curve:
         place.axis("off")
-        place.text(0.5, 0.5, "no curve: not asked for, or too many faces to subdivide", ha="center", va="center")
+        place.text(0.5, 0.5, "no curve: not asked for, no light, or too many faces", ha="center", va="center")
         return
     faces = [p["faces"] for p in curve]
     for mode in MODES:

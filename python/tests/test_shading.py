@@ -265,6 +265,18 @@ def test_a_scene_of_meshes_is_subdivided_and_all_modes_approach_one_limit():
     assert lesk.compare_shading(POT, spp=1, frames=1, curve=False).curve == []
 
 
+def test_shapes_and_meshes_together_become_finer_together():
+    ball = '[[objects]]\nshape = "sphere"\nradius = "0.4 m"\nmaterial = "red"\ntransform = { translate = [-1.2, 0, 0.4] }\n'
+    found = lesk.compare_shading(POT.replace("[[lights]]", f"{ball}[[lights]]"), spp=4, frames=1)
+    assert [(p["subdivide"], p["tessellation"]) for p in found.curve] == [(0, 8), (1, 16), (2, 32), (3, 64)]
+    pot = lesk.shade(POT).counts["faces"]
+    # a sphere of n faces around has n/2 rows of them
+    assert [p["faces"] for p in found.curve] == [(pot + 8 * 4) * 4**n for n in range(4)]
+    for mode in ("flat", "gouraud", "phong"):
+        errors = [p["errors"][mode] for p in found.curve]
+        assert errors[3] < 0.5 * errors[0] and errors[3] < errors[2], (mode, errors)
+
+
 def test_a_picture_without_light_has_no_curve():
     away = POT.replace("target = [0, 0, 0.7]", "target = [0, -9, 0.7]")
     found = lesk.compare_shading(away, spp=1, frames=1)
