@@ -216,6 +216,14 @@ def _surfaces() -> Iterator[Case]:
     for d in (0.5, 1, 2):
         tube.point(f"200 cd/m, 2 m long, end at {d} m", exact.line(200, 2, d), (d, 0, 0), (-1, 0, 0))
     yield tube
+    # thin and far from where it is asked: no digit of the ray may hide it
+    wire = Case("line").thing(
+        "cylinder", radius="1 mm", height="2 m", capped=False, light='{ luminance = "100 kcd/m2" }'
+    )
+    side = math.sqrt(0.5)
+    for what, x, y in (("along x", 1.0, 0.0), ("diagonally", side, side)):
+        wire.point(f"radius 1 mm, 3 m off {what}", exact.line(200, 2, 3), (3 * x, 3 * y, 0), (-x, -y, 0))
+    yield wire
     floor = Case("luminance").light("point", position=[0, 0, 3], flux="10000 lm")
     floor.thing("rectangle", width="20 m", height="20 m", material=floor.diffuse(0.5))
     e = exact.point(1e4, [0, 0, 3], [1, 0, 0], [0, 0, 1])

@@ -52,7 +52,9 @@ impl Ray {
     /// From the surface to a point on another one, lifted off both.
     pub fn to_sample(from: &Surface, to: &SurfaceSample) -> Self {
         let back = from.p - to.p;
-        let target = to.p + to.n * to.lift.copysign(to.n.dot(back));
+        // `d` is rounded to half a digit of its own: far away that is more than the digits of the point
+        let rounding = f32::EPSILON * (back.x.abs() + back.y.abs() + back.z.abs());
+        let target = to.p + to.n * (to.lift + rounding).copysign(to.n.dot(back));
         let o = from.lifted(target - from.p);
         Ray { o, d: target - o, t_min: 0.0, t_max: 1.0 }
     }

@@ -1,16 +1,17 @@
 //! A surface that shines.
 
 use crate::bounds::LightBounds;
-use crate::emission_map::EmissionMap;
+use crate::emission_map::{Carrier, EmissionMap, MeshMap, ShapeMap};
 use crate::error::{LightError, check_color};
 use crate::parts::{Extent, Parts};
-use crate::sample::{LightSample, Receiver, Target, toward};
+use crate::sample::{LightSample, Receiver, Target, per_steradian, toward};
+use crate::triangle::Triangle;
 use lesk_geometry::{AreaSampler, Geometry, Surface, SurfaceSample, Transform};
 use lesk_math::{Color, Vec3};
 use std::f64::consts::PI;
 
 /// A diffuse emitter: the same luminance into every direction of its outer side, or of both sides; from every point the
-/// same too, unless a mesh has an [`EmissionMap`].
+/// same too, unless it has an [`EmissionMap`].
 ///
 /// On a mesh, every rectangle of two triangles and every other triangle is a light of its own for the purpose of choosing;
 /// with a map, every triangle.
@@ -68,19 +69,33 @@ impl Area {
         Ok(light)
     }
 
-    /// A placed mesh of the given luminance in cd/m², multiplied by a picture on it.
+    /// A surface of the given luminance in cd/m², multiplied by a picture on it.
     ///
     /// # Errors
     /// As [`new`](Self::new).
-    pub fn mapped(
-        map: EmissionMap,
-        world_from_local: &Transform,
-        luminance: Color<f32>,
-        two_sided: bool,
-    ) -> Result<Self, LightError> {
-        let light = Self::new(&Geometry::Mesh(map.mesh().clone()), world_from_local, luminance, two_sided)?;
-        let form = Form::Parts(Parts::triangles(map.mesh(), world_from_local));
-        Ok(Area { form, map: Some(map), ..light })
+    pub fn mapped(map: EmissionMap, luminance: Color<f32>, two_sided: bool) -> Result<Self, LightError> {
+        check_color("luminance", "cd/m2", luminance)?;
+        let (geometry, place) = map.surface();
+        let sampler = AreaSampler::new(geometry, place)?;
+        let area = sampler.area();
+        let form = match geometry {
+            Geometry::Mesh(mesh) => Form::Parts(Parts::triangles(mesh, place)),
+            _ => Form::Whole(Box::new(sampler)),
+        };
+        Ok(Area { luminance, two_sided, area, form, map: Some(map) })
+    }
+
+    /// The same light, as bright all over as needed for this luminous flux in lm of all sides together.
+    ///
+    /// # Errors
+    /// A flux that is not positive, or so large or small that f32 cannot hold the luminance; a picture that is black.
+    pub fn with_flux(mut self, flux: f32) -> Result<Self, LightError> {
+        if self.flux() <= 0.0 {
+            return Err(LightError::new("the picture on the light is black").hint("remove the light to have it dark"));
+        }
+        self.luminance = self.luminance * (flux / self.flux());
+        check_color("luminance", "cd/m2", self.luminance)?;
+        Ok(self)
     }
 
     /// Luminance, cd/m²; where an emission map is, that of a white texel.
@@ -106,17 +121,18 @@ impl Area {
                 let of = |(part, extent): (usize, Extent)| f64::from(extent.area * self.mean(part).luminance());
                 parts.extents().enumerate().map(of).sum::<f64>()
             }
-            _ => self.area * f64::from(self.luminance.luminance()),
+            _ => self.area * f64::from(self.mean(0).luminance()),
         };
         (PI * sides * flux) as f32
     }
 
     /// Mean luminance of a part, cd/m².
     fn mean(&self, part: usize) -> Color<f32> {
-        match (&self.form, &self.map) {
-            (Form::Parts(parts), Some(map)) => {
+        match (&self.form, self.map.as_ref().map(EmissionMap::carrier)) {
+            (Form::Parts(parts), Some(Carrier::Mesh(map))) => {
                 parts.triangle(part as u32).map_or(self.luminance, |(_, prim)| self.luminance * map.mean(prim as usize))
             }
+            (Form::Whole(_), Some(Carrier::Shape(map))) => self.luminance * map.mean,
             _ => self.luminance,
         }
     }
@@ -135,11 +151,19 @@ impl Area {
     }
 
     fn texel(&self, map: &EmissionMap, prim: u32, p: Vec3<f32>) -> Color<f32> {
-        let Form::Parts(parts) = &self.form else { return Color::WHITE };
-        match parts.part_of(prim).and_then(|part| parts.triangle(part)) {
-            Some((triangle, _)) => map.at(prim as usize, triangle.weights_at(p)),
-            None => Color::BLACK,
+        match map.carrier() {
+            Carrier::Mesh(on) => match self.triangle(prim) {
+                Some(triangle) => map.at(on.uv(prim as usize, triangle.weights_at(p))),
+                None => Color::BLACK,
+            },
+            Carrier::Shape(on) => map.at(on.uv(prim, p)),
         }
+    }
+
+    /// A triangle that is a part by itself.
+    fn triangle(&self, prim: u32) -> Option<&Triangle> {
+        let Form::Parts(parts) = &self.form else { return None };
+        parts.triangle(parts.part_of(prim)?).map(|(triangle, _)| triangle)
     }
 
     /// How many lights this one is for the purpose of choosing.
@@ -160,9 +184,14 @@ impl Area {
     }
 
     pub(crate) fn sample(&self, part: u32, at: &Receiver, u: [f32; 2]) -> Option<LightSample> {
-        let sample = match &self.form {
-            Form::Whole(sampler) => sampler.sample_from(at.p, u),
-            Form::Parts(parts) => parts.sample_from(part, at.p, u),
+        let sample = match (&self.form, self.map.as_ref().map(EmissionMap::carrier)) {
+            (Form::Whole(sampler), Some(Carrier::Shape(map))) => sample_shape(sampler, map, at, u),
+            (Form::Whole(sampler), _) => sampler.sample_from(at.p, u),
+            (Form::Parts(parts), Some(Carrier::Mesh(map))) => {
+                let (triangle, prim) = parts.triangle(part)?;
+                sample_triangle(triangle, map, prim, at, u)
+            }
+            (Form::Parts(parts), _) => parts.sample_from(part, at.p, u),
         }?;
         self.seen(at, &sample)
     }
@@ -183,9 +212,13 @@ impl Area {
 
     /// The density of [`sample`](Self::sample) for the point that a ray from the receiver hit, 1/sr.
     pub(crate) fn pdf(&self, at: &Receiver, hit: &Surface) -> f32 {
-        match &self.form {
-            Form::Whole(sampler) => sampler.pdf_from(at.p, hit.prim, hit.p, hit.ng),
-            Form::Parts(parts) => parts.pdf_from(at.p, hit.prim, hit.p),
+        match (&self.form, self.map.as_ref().map(EmissionMap::carrier)) {
+            (Form::Whole(sampler), Some(Carrier::Shape(map))) => shape_pdf(sampler, map, at, hit.prim, hit.p, hit.ng),
+            (Form::Whole(sampler), _) => sampler.pdf_from(at.p, hit.prim, hit.p, hit.ng),
+            (Form::Parts(_), Some(Carrier::Mesh(map))) => {
+                self.triangle(hit.prim).map_or(0.0, |triangle| triangle_pdf(triangle, map, at, hit.prim, hit.p))
+            }
+            (Form::Parts(parts), _) => parts.pdf_from(at.p, hit.prim, hit.p),
         }
     }
 
@@ -198,7 +231,7 @@ impl Area {
                     // a convex body shows a quarter of its surface on average
                     None => (Vec3::Z, PI, 0.25),
                 };
-                let intensity = self.luminance.luminance() * self.area as f32 * share;
+                let intensity = self.mean(0).luminance() * self.area as f32 * share;
                 vec![LightBounds::surface(sampler.bounds(), axis, spread, intensity, self.two_sided)]
             }
             Form::Parts(parts) => {
@@ -210,4 +243,45 @@ impl Area {
             }
         }
     }
+}
+
+/// A point of a shape with a picture: half of the draws know where the receiver is, half where the picture is bright.
+fn sample_shape(sampler: &AreaSampler, map: &ShapeMap, at: &Receiver, u: [f32; 2]) -> Option<SurfaceSample> {
+    let mut sample = match halves(u) {
+        (true, u) => sampler.sample_from(at.p, u),
+        (false, u) => map.sample(u),
+    }?;
+    sample.pdf = shape_pdf(sampler, map, at, sample.prim, sample.p, sample.n);
+    (sample.pdf > 0.0 && sample.pdf.is_finite()).then_some(sample)
+}
+
+fn shape_pdf(sampler: &AreaSampler, map: &ShapeMap, at: &Receiver, prim: u32, p: Vec3<f32>, n: Vec3<f32>) -> f32 {
+    let by_picture = per_steradian(map.pdf(prim, p), at.p, p, n).unwrap_or(0.0);
+    0.5 * (sampler.pdf_from(at.p, prim, p, n) + by_picture)
+}
+
+/// The same for a triangle.
+fn sample_triangle(t: &Triangle, map: &MeshMap, prim: u32, at: &Receiver, u: [f32; 2]) -> Option<SurfaceSample> {
+    if !map.varies(prim as usize) {
+        return t.sample_from(at.p, prim, u);
+    }
+    let mut sample = match halves(u) {
+        (true, u) => t.sample_from(at.p, prim, u),
+        (false, u) => t.sample_at(at.p, prim, map.sample(prim as usize, u)?),
+    }?;
+    sample.pdf = triangle_pdf(t, map, at, prim, sample.p);
+    (sample.pdf > 0.0 && sample.pdf.is_finite()).then_some(sample)
+}
+
+fn triangle_pdf(t: &Triangle, map: &MeshMap, at: &Receiver, prim: u32, p: Vec3<f32>) -> f32 {
+    let by_place = t.pdf_from(at.p, p);
+    match map.density(prim as usize, t.weights_at(p)) {
+        Some(density) => 0.5 * (by_place + density as f32 * t.uniform_pdf(at.p, p)),
+        None => by_place,
+    }
+}
+
+/// Which half of the draws `u` belongs to, and `u` stretched again.
+fn halves(u: [f32; 2]) -> (bool, [f32; 2]) {
+    if u[0] < 0.5 { (true, [2.0 * u[0], u[1]]) } else { (false, [2.0 * u[0] - 1.0, u[1]]) }
 }

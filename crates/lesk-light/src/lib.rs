@@ -43,6 +43,7 @@ mod hosek_sky;
 mod light;
 mod lights;
 mod luminaire;
+mod opening;
 mod parts;
 pub mod photometry;
 mod point;

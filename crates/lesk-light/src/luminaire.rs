@@ -2,9 +2,10 @@
 
 use crate::bounds::LightBounds;
 use crate::error::{LightError, check_color, check_direction};
+use crate::opening::View;
 use crate::photometry::{Counted, Opening, OpeningShape, Outline, Photometry};
-use crate::sample::{LightSample, Receiver, Target, toward};
-use lesk_geometry::{AreaSampler, Geometry, Surface, Transform};
+use crate::sample::{LightSample, Receiver, Target, per_steradian, toward};
+use lesk_geometry::{AreaSampler, Geometry, Surface, SurfaceSample, Transform};
 use lesk_math::{Color, Vec3, vec3};
 use std::f64::consts::{FRAC_PI_2, PI};
 use std::sync::Arc;
@@ -39,6 +40,8 @@ struct Placed {
     geometry: Geometry,
     transform: Transform,
     sampler: AreaSampler,
+    /// Of the opening, which is the photometric centre.
+    center: Vec3<f64>,
     /// Flat openings shine to both sides.
     flat: bool,
     /// Smallest projected area that counts, m².
@@ -114,8 +117,15 @@ impl Luminaire {
 
     /// The unit direction `w` of the world in the frame of the luminaire.
     fn local(&self, w: Vec3<f32>) -> Vec3<f64> {
-        let w = w.map(f64::from);
+        self.frame(w.map(f64::from))
+    }
+
+    fn frame(&self, w: Vec3<f64>) -> Vec3<f64> {
         vec3(w.dot(self.axes[0]), w.dot(self.axes[1]), w.dot(self.axes[2]))
+    }
+
+    fn world(&self, w: Vec3<f64>) -> Vec3<f64> {
+        self.axes[0] * w.x + self.axes[1] * w.y + self.axes[2] * w.z
     }
 
     /// Luminous intensity in cd in the unit direction `w` away from the luminaire.
@@ -142,7 +152,7 @@ impl Luminaire {
     pub(crate) fn sample(&self, at: &Receiver, u: [f32; 2]) -> Option<LightSample> {
         let Some(opening) = &self.opening else { return self.sample_point(at) };
         // over the area, not the solid angle: near its edge a flat opening is bright and thin, and only the product counts
-        let mut sample = opening.sampler.sample(u);
+        let mut sample = if opening.flat { opening.sampler.sample(u) } else { self.sample_visible(opening, at, u)? };
         sample.pdf = per_steradian(sample.pdf, at.p, sample.p, sample.n)?;
         let (wi, distance) = toward(at.p, sample.p)?;
         let value = self.radiance(sample.n, -wi);
@@ -155,6 +165,22 @@ impl Luminaire {
             light: 0,
             target: Target::Surface(sample),
         })
+    }
+
+    /// A point of a body that the receiver can see, with its density over area.
+    fn sample_visible(&self, opening: &Placed, at: &Receiver, u: [f32; 2]) -> Option<SurfaceSample> {
+        let spot = self.view(opening, at)?.sample(u.map(f64::from))?;
+        let p = self.world(spot.p) + opening.center;
+        let (p, n) = (p.map(|x| x as f32), self.world(spot.n).map(|x| x as f32));
+        // triangles round as far as their corners are from the origin
+        let size: f64 = self.photometry.opening.size.iter().sum();
+        let reach = p.map(|x| 3.0 * (x.abs() + size as f32));
+        let lift = Surface::at(reach, n).lift;
+        Some(SurfaceSample { p, n, uv: [0.0; 2], prim: 0, pdf: spot.density as f32, lift })
+    }
+
+    fn view(&self, opening: &Placed, at: &Receiver) -> Option<View> {
+        View::new(&self.photometry.opening, self.frame(at.p.map(f64::from) - opening.center))
     }
 
     fn sample_point(&self, at: &Receiver) -> Option<LightSample> {
@@ -174,7 +200,13 @@ impl Luminaire {
     /// The density of [`sample`](Self::sample) for the point of the opening that a ray from the receiver hit, 1/sr.
     pub(crate) fn pdf(&self, at: &Receiver, hit: &Surface) -> f32 {
         let Some(opening) = &self.opening else { return 0.0 };
-        per_steradian(opening.sampler.pdf(hit.prim, hit.p), at.p, hit.p, hit.ng).unwrap_or(0.0)
+        let density = if opening.flat {
+            opening.sampler.pdf(hit.prim, hit.p)
+        } else {
+            let (p, n) = (hit.p.map(f64::from) - opening.center, hit.ng.map(f64::from));
+            self.view(opening, at).map_or(0.0, |view| view.density(self.frame(p), self.frame(n)) as f32)
+        };
+        per_steradian(density, at.p, hit.p, hit.ng).unwrap_or(0.0)
     }
 
     pub(crate) fn bounds(&self) -> LightBounds {
@@ -188,15 +220,6 @@ impl Luminaire {
             None => LightBounds::cone(self.position, down, spread, FRAC_PI_2, intensity),
         }
     }
-}
-
-/// A density over area as one over solid angle seen from `x`; `None` edge-on.
-fn per_steradian(pdf: f32, x: Vec3<f32>, p: Vec3<f32>, n: Vec3<f32>) -> Option<f32> {
-    let to = p.map(f64::from) - x.map(f64::from);
-    let square = to.length_squared();
-    let cosine = to.dot(n.map(f64::from)).abs() / square.sqrt();
-    let out = (f64::from(pdf) * square / cosine) as f32;
-    (cosine > 1e-9 && out.is_finite() && out > 0.0).then_some(out)
 }
 
 /// World from the luminaire's frame.
@@ -242,5 +265,6 @@ fn placed(opening: &Opening, place: &Transform) -> Result<Option<Placed>, LightE
     let sampler = AreaSampler::new(&geometry, &transform)?;
     let largest = AXES.map(|axis| opening.projected_area(axis)).into_iter().sum::<f64>();
     let flat = matches!(opening.shape, OpeningShape::Rectangle | OpeningShape::Ellipse | OpeningShape::Upright(..));
-    Ok(Some(Placed { geometry, transform, sampler, flat, least: LEAST_SEEN * largest }))
+    let center = place.point_f64(Vec3::ZERO);
+    Ok(Some(Placed { geometry, transform, sampler, center, flat, least: LEAST_SEEN * largest }))
 }

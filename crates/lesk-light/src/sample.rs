@@ -74,3 +74,12 @@ pub(crate) fn toward(from: Vec3<f32>, to: Vec3<f32>) -> Option<(Vec3<f32>, f32)>
     let distance = d.length();
     (distance > 1e-18 && distance.is_finite()).then(|| (d * (1.0 / distance), distance))
 }
+
+/// A density over area as one over solid angle seen from `x`; `None` edge-on.
+pub(crate) fn per_steradian(pdf: f32, x: Vec3<f32>, p: Vec3<f32>, n: Vec3<f32>) -> Option<f32> {
+    let to = p.map(f64::from) - x.map(f64::from);
+    let square = to.length_squared();
+    let cosine = to.dot(n.map(f64::from)).abs() / square.sqrt();
+    let out = (f64::from(pdf) * square / cosine) as f32;
+    (cosine > 1e-9 && out.is_finite() && out > 0.0).then_some(out)
+}

@@ -117,6 +117,20 @@ impl Triangle {
         }
     }
 
+    /// The point at barycentric weights, with the density over solid angle of a point drawn uniformly; `None` edge-on.
+    pub fn sample_at(&self, x: Vec3<f32>, prim: u32, weights: [f64; 3]) -> Option<SurfaceSample> {
+        let [a, b, c] = self.corners;
+        let w = weights.map(|w| w as f32);
+        let p = a * w[0] + b * w[1] + c * w[2];
+        let pdf = self.uniform_pdf(x, p);
+        (pdf > 0.0).then_some(SurfaceSample { p, n: self.n, uv: [w[1], w[2]], prim, pdf, lift: self.lift })
+    }
+
+    /// The density over solid angle of a point drawn uniformly; 0 edge-on.
+    pub fn uniform_pdf(&self, x: Vec3<f32>, p: Vec3<f32>) -> f32 {
+        area_pdf(x, p, self.n, self.area)
+    }
+
     /// Barycentric weights of the corners for a point of the triangle.
     pub fn weights_at(&self, p: Vec3<f32>) -> [f64; 3] {
         let [a, b, c] = self.corners.map(widen);
@@ -205,7 +219,7 @@ fn across(v: Vec3<f64>, axis: Vec3<f64>) -> Vec3<f64> {
 
 /// Heitz, *A Low-Distortion Map Between Triangle and Square*, 2019: barycentric weights.
 #[inline]
-fn by_area(u: [f32; 2]) -> [f32; 3] {
+pub(crate) fn by_area(u: [f32; 2]) -> [f32; 3] {
     let (b, c) = if u[1] > u[0] { (0.5 * u[0], u[1] - 0.5 * u[0]) } else { (u[0] - 0.5 * u[1], 0.5 * u[1]) };
     [1.0 - b - c, b, c]
 }

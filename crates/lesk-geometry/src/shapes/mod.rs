@@ -2,6 +2,7 @@
 
 mod analytic;
 mod meshes;
+mod parametric;
 mod sampler;
 mod solid_angle;
 

@@ -36,14 +36,14 @@ pub struct SurfaceSample {
 /// [`pdf`](AreaSampler::pdf).
 #[derive(Clone, Debug)]
 pub struct AreaSampler {
-    place: Transform,
-    form: Form,
+    pub(super) place: Transform,
+    pub(super) form: Form,
     area: f64,
     bounds: Bounds,
 }
 
 #[derive(Clone, Debug)]
-enum Form {
+pub(super) enum Form {
     /// Running sums of the triangles' areas.
     Mesh(Arc<Mesh>, Vec<f64>),
     /// Corner and edges; the last value says whether they are orthogonal.
@@ -181,13 +181,13 @@ impl AreaSampler {
         1.0 / (shape_area(shape) * self.place.area_factor(local_n))
     }
 
-    fn placed(&self, local: LocalSurface, prim: u32, pdf: f64) -> SurfaceSample {
+    pub(super) fn placed(&self, local: LocalSurface, prim: u32, pdf: f64) -> SurfaceSample {
         let p = narrow(self.place.point_f64(local.p));
         let n = narrow(self.place.normal_f64(local.n).normalize());
         SurfaceSample { p, n, uv: local.uv.map(|x| x as f32), prim, pdf: pdf as f32, lift: lift(n, abs(p)) }
     }
 
-    fn rectangle_point(&self, [corner, ex, ey]: &[Vec3<f64>; 3], u: [f64; 2]) -> SurfaceSample {
+    pub(super) fn rectangle_point(&self, [corner, ex, ey]: &[Vec3<f64>; 3], u: [f64; 2]) -> SurfaceSample {
         let n = self.place.normal(Vec3::Z);
         let p = narrow(*corner + *ex * u[0] + *ey * u[1]);
         SurfaceSample {

@@ -1,6 +1,6 @@
 //! The lights of a scene, and what lies behind everything.
 
-use super::material::Picture;
+use super::material::{Picture, TextureDescription};
 use crate::error::Place;
 use lesk_light::{Mounting, Spectrum, Up};
 use lesk_quantities::Quantity;
@@ -47,6 +47,9 @@ pub struct AreaLightDescription {
     pub emission: Emission,
     /// Whether both sides shine.
     pub two_sided: bool,
+    /// A picture that multiplies the luminance, or shares out the flux; its role, channel, scale and offset have no
+    /// meaning here.
+    pub texture: Option<TextureDescription>,
 }
 
 /// A light that is no surface.

@@ -65,7 +65,7 @@ impl ObjectDescription {
     /// The same shining from its outer side.
     #[must_use]
     pub fn light(mut self, emission: Emission) -> Self {
-        self.light = Some(AreaLightDescription { emission, two_sided: false });
+        self.light = Some(AreaLightDescription { emission, two_sided: false, texture: None });
         self
     }
 }

@@ -192,7 +192,11 @@ fn direction(fields: &Fields, problems: &mut Problems) -> Option<[f64; 3]> {
 pub(super) fn area_light(node: &Node, problems: &mut Problems) -> Option<AreaLightDescription> {
     let fields = Fields::of(node, &Expected::plain("light", AREA_LIGHT), problems)?;
     let emission = emission(&fields, "light", problems)?;
-    Some(AreaLightDescription { emission, two_sided: fields.bool("two_sided").unwrap_or(false) })
+    let texture = match fields.node("texture") {
+        Some(node) => Some(super::materials::light_texture(node, problems)?),
+        None => None,
+    };
+    Some(AreaLightDescription { emission, two_sided: fields.bool("two_sided").unwrap_or(false), texture })
 }
 
 /// The one amount and the colour of a light called `kind`.

@@ -4,7 +4,7 @@ use super::fields::{Expected, Fields, Problems, real};
 use super::node::{Data, Entry, Node};
 use crate::description::{MaterialDescription, NormalMapDescription, Picture, Source, TextureDescription};
 use crate::error::{Problem, list};
-use crate::schema::{MATERIAL_COMMON, NORMAL_MAP, TEXTURE};
+use crate::schema::{LIGHT_TEXTURE, MATERIAL_COMMON, NORMAL_MAP, TEXTURE};
 use lesk_bsdf::registry;
 use lesk_image::texture::{Channel, Interpolation, Role, Wrap};
 
@@ -82,6 +82,15 @@ fn normal_map(node: &Node, problems: &mut Problems) -> Option<NormalMapDescripti
     let mut texture = TextureDescription::new(Picture::File(fields.text("file")?.into()));
     lay(&fields, &mut texture);
     Some(NormalMapDescription { texture, strength: fields.number("strength").unwrap_or(1.0), place: node.place })
+}
+
+/// The picture on a light.
+pub(super) fn light_texture(node: &Node, problems: &mut Problems) -> Option<TextureDescription> {
+    let fields = Fields::of(node, &Expected::plain("light texture", LIGHT_TEXTURE), problems)?;
+    let mut texture = TextureDescription::new(Picture::File(fields.text("file")?.into()));
+    texture.srgb = fields.text("color_space").map(|c| c == "srgb");
+    lay(&fields, &mut texture);
+    Some(texture)
 }
 
 /// How a picture is laid over a surface.

@@ -13,7 +13,7 @@ use lesk_geometry::import::{
 };
 use lesk_image::texture::{Channel, Interpolation, Role, Wrap};
 use lesk_light::{Area, Directional, EmissionMap, Light, LightError, Point, Spot, rec709};
-use lesk_math::{Vec3, vec3};
+use lesk_math::{Color, Vec3, vec3};
 use std::path::Path;
 
 /// What a material of a file became.
@@ -69,19 +69,34 @@ impl Resolver<'_> {
     }
 
     fn glowing(&mut self, part: Part, own: &Imported, place: Place) {
-        let geometry = self.geometry(part.geometry).clone();
         let luminance = rec709(own.emission);
-        let area = if let (Some(d), Some(mesh)) = (&own.emission_map, geometry.mesh()) {
-            let reading = Reading { role: Role::Color, srgb: d.srgb, wrap: d.wrap, interpolation: d.interpolation };
-            let loaded = self.files.texture(&d.image, reading);
-            let Some(loaded) = self.check(place, &about(part.name), loaded) else { return };
-            let map = EmissionMap::new(loaded.texture, mesh.clone(), d.uv_set, d.uv);
-            Area::mapped(map, &part.transform, luminance, own.two_sided)
-        } else {
-            Area::new(&geometry, &part.transform, luminance, own.two_sided)
+        let area = match &own.emission_map {
+            Some(d) => self.mapped(&part, d, luminance, own.two_sided, place),
+            None => {
+                let area = Area::new(self.geometry(part.geometry), &part.transform, luminance, own.two_sided);
+                self.check(place, &about(part.name), area)
+            }
         };
-        let Some(area) = self.check(place, &about(part.name), area) else { return };
+        let Some(area) = area else { return };
         self.instance_with(part, Some(area));
+    }
+
+    /// A light with a picture on it.
+    pub(super) fn mapped(
+        &mut self,
+        part: &Part,
+        d: &TextureDescription,
+        luminance: Color<f32>,
+        two_sided: bool,
+        place: Place,
+    ) -> Option<Area> {
+        let reading = Reading { role: Role::Color, srgb: d.srgb, wrap: d.wrap, interpolation: d.interpolation };
+        let loaded = self.files.texture(&d.image, reading);
+        let loaded = self.check(place, &about(part.name), loaded)?;
+        let geometry = self.geometry(part.geometry);
+        let mapped = EmissionMap::new(loaded.texture, geometry, &part.transform, d.uv_set, d.uv)
+            .and_then(|map| Area::mapped(map, luminance, two_sided));
+        self.check(place, &about(part.name), mapped)
     }
 
     /// The materials of a file as materials of the scene, made once per file.

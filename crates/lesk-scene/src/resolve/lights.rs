@@ -78,13 +78,17 @@ impl Resolver<'_> {
     pub(super) fn area_light(&mut self, part: &Part, d: &AreaLightDescription) -> Option<Area> {
         let about = super::objects::about(part.name);
         let (dimension, value) = self.photometric(&about, &d.emission, &[LuminousFlux, Luminance])?;
-        let geometry = self.geometry(part.geometry);
-        let light = if dimension == LuminousFlux {
-            Area::from_flux(geometry, &part.transform, value, d.two_sided)
-        } else {
-            Area::new(geometry, &part.transform, value, d.two_sided)
+        let is_flux = dimension == LuminousFlux;
+        let place = d.emission.place;
+        let Some(picture) = &d.texture else {
+            let make = if is_flux { Area::from_flux } else { Area::new };
+            let light = make(self.geometry(part.geometry), &part.transform, value, d.two_sided);
+            return self.check(place, &about, light);
         };
-        self.check(d.emission.place, &about, light)
+        // with a flux for its luminance, the light has the right colour
+        let light = self.mapped(part, picture, value, d.two_sided, place)?;
+        let flux = if is_flux { value.luminance() } else { light.flux() };
+        self.check(place, &about, light.with_flux(flux))
     }
 
     fn environment(&mut self, d: &EnvironmentDescription) -> Option<Light> {

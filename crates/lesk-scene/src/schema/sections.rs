@@ -100,6 +100,11 @@ pub(crate) const NORMAL_MAP: &[Field] = &[
     UV_OFFSET,
 ];
 
+const COLOR_SPACE: Field = field(
+    "color_space",
+    Kind::Choice(&["srgb", "linear"]),
+    "How the file encodes colours; what its format says where absent.",
+);
 const WRAP: Field =
     field("wrap", Kind::Choice(&["repeat", "mirror", "clamp"]), "How it continues beyond 0 to 1; repeat where absent.");
 const INTERPOLATION: Field =
@@ -111,11 +116,7 @@ const UV_OFFSET: Field =
 pub(crate) const TEXTURE: &[Field] = &[
     needed("file", Kind::Text, "An EXR, HDR, PNG or JPEG file."),
     field("role", Kind::Choice(&["color", "data"]), "Colours are decoded to linear light, data never."),
-    field(
-        "color_space",
-        Kind::Choice(&["srgb", "linear"]),
-        "How the file encodes colours; what its format says where absent.",
-    ),
+    COLOR_SPACE,
     field(
         "channel",
         Kind::Choice(&["r", "g", "b", "a", "luminance"]),
@@ -225,6 +226,20 @@ pub(crate) const AREA_LIGHT: &[Field] = &[
     TEMPERATURE,
     SPECTRUM,
     field("two_sided", Kind::Bool, "Whether both sides shine; false where absent. The flux is that of both together."),
+    field(
+        "texture",
+        Kind::Table(Section::Plain("light texture", LIGHT_TEXTURE)),
+        "A picture on the surface: a luminance is that of its white, a flux that of the whole.",
+    ),
+];
+
+pub(crate) const LIGHT_TEXTURE: &[Field] = &[
+    needed("file", Kind::Text, "An EXR, HDR, PNG or JPEG file."),
+    COLOR_SPACE,
+    WRAP,
+    INTERPOLATION,
+    UV_SCALE,
+    UV_OFFSET,
 ];
 
 pub(crate) const LIGHT: Variants = Variants {
