@@ -145,6 +145,22 @@ def cube(intensity: float, edge: float, rho: float, places: list[tuple[float, fl
     return [f + (f - c) / 3 for c, f in zip(coarse, fine, strict=True)]
 
 
+def cube_grid_mean(intensity: float, edge: float, rho: float, count: int) -> float:
+    """Mean indirect illuminance at `count` x `count` midpoints of a face; the mean of the whole is `enclosure_mean`.
+
+    The midpoint rule does not see the dark edges well: it gives 0.1 % too much for 20 x 20 points, and a quarter of that
+    for twice as many.
+    """
+    # a quarter of the face stands for all
+    places = [(x, y) for x in _middles(count) for y in _middles(count) if x > 0 and y > 0]
+    total = np.array(cube(intensity, edge, rho, places))
+    return float(np.mean(total - _cube_direct(np.array(places), intensity, edge / 2)))
+
+
+def _middles(count: int) -> list[float]:
+    return [(2 * i + 1) / count - 1 for i in range(count)]
+
+
 def cube_radiosity(
     intensity: float, edge: float, rho: float, places: list[tuple[float, float]], cells: int
 ) -> list[float]:

@@ -90,11 +90,13 @@ class Case:
         self.rows.append(Row(what, name, expected, exact, part, reference_error))
         return self
 
-    def grid(self, what: str, expected: float, *, part: str = "value", **keys: object) -> Case:
+    def grid(
+        self, what: str, expected: float, *, part: str = "value", reference_error: float = 0.0, **keys: object
+    ) -> Case:
         """Add a grid whose mean is known."""
         name = f"s{len(self.rows)}"
         self._parts.append(_table("sensors", type="grid", name=name, **keys))
-        self.rows.append(Row(what, name, expected, False, part))
+        self.rows.append(Row(what, name, expected, False, part, reference_error))
         return self
 
     def look(self, what: str, expected: float, at: Sequence[float], target: Sequence[float]) -> Case:
@@ -301,8 +303,9 @@ def _rooms() -> Iterator[Case]:
         room = Case("cube of 4 m", error=0.03).light("point", position=[0, 0, 0], flux="10000 lm")
         room.thing("cube", edge="4 m", material=room.diffuse(rho))
         edges: dict[str, Any] = {"corner": [-2, -2, -2], "u": [4, 0, 0], "v": [0, 4, 0], "spacing": "0.2 m"}
-        expected = exact.enclosure_mean(1e4, 96, rho)
-        yield room.grid(f"rho {rho}: mean indirect", expected, part="indirect", **edges)
+        expected = exact.cube_grid_mean(1e4 / (4 * math.pi), 4, rho, 20)
+        what = f"rho {rho}: mean indirect of 20 x 20 points"
+        yield room.grid(what, expected, part="indirect", reference_error=1e-4, **edges)
     places = [(0.0, 0.0), (0.5, 0.5), (0.75, 0.75)]
     for rho in (0.2, 0.5, 0.8):
         room = Case("cube of 4 m").light("point", position=[0, 0, 0], flux="10000 lm")

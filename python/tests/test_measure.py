@@ -218,6 +218,15 @@ def test_radiosity_of_the_cube_is_that_of_keldysh():
     assert exact.enclosure_mean(1e4, 96, 0.5) + 1e4 / 96 == pytest.approx(208.33, abs=5e-3)
 
 
+def test_means_over_the_cubes_grid_tend_to_the_mean_of_the_enclosure():
+    few, many = (exact.cube_grid_mean(1e4 / (4 * math.pi), 4, 0.5, count) for count in (8, 16))
+    whole = exact.enclosure_mean(1e4, 96, 0.5)
+    # the midpoint rule: a quarter of the error for twice as many points
+    assert (few - whole) / (many - whole) == pytest.approx(4, rel=0.1)
+    # 2e-4: the radiosity of 12 and 24 cells
+    assert (4 * many - few) / 3 == pytest.approx(whole, rel=2e-4)
+
+
 def test_validation_has_enough_rows_and_its_quick_ones_agree():
     table = list(cases())
     assert sum(len(case.rows) for case in table) >= 60

@@ -74,7 +74,7 @@ impl Luminaire {
     ) -> Result<Self, LightError> {
         if photometry.counted == Counted::Power {
             return Err(LightError::new("luminaire's file counts watts, lumens are accepted")
-                .hint("its efficacy is not known; a scene needs a file in cd"));
+                .hint("`Photometry::in_lumens` counts them by the efficacy of a spectrum"));
         }
         let (peak, _) = photometry.peak();
         if photometry.flux() <= 0.0 {

@@ -63,6 +63,61 @@ fn flux_and_maintenance_replace_and_reduce_what_the_file_says() {
     assert!((lamp.flux() / 1600.0 - 1.0).abs() < 1e-6);
 }
 
+/// The lamp with a TILT section: 1 straight down, 0.8 at 90 degrees.
+const TILTING: &str =
+    "IESNA:LM-63-2002\nTILT=INCLUDE\n1\n2\n0 90\n1 0.8\n1 -1 1 2 1 1 2 0.1 0.4 0\n1 1 9\n0 180\n0\n100 100\n";
+
+/// 100 mW/sr in all directions.
+const RADIANT: &str =
+    "IES:LM-63-2019\n[_INTENSITYUNITS] mW/sr\nTILT=NONE\n1 -1 1 2 1 1 2 0.1 0.4 0\n1 1.00001 9\n0 180\n0\n100 100\n";
+
+fn only_luminaire(folder: &Folder, rest: &str) -> (f32, Vec<String>) {
+    let scene = folder.scene(&format!("[[lights]]\ntype = \"luminaire\"\nposition = [0, 0, 2]\n{rest}")).unwrap();
+    let [Light::Luminaire(lamp)] = scene.lights.list() else { panic!() };
+    (lamp.flux(), scene.notes)
+}
+
+#[test]
+fn a_tilted_luminaire_gives_what_its_tilt_section_leaves() {
+    let folder = Folder::new("tilt");
+    std::fs::write(folder.0.join("tilt.ies"), TILTING).unwrap();
+    let full = 400.0 * std::f32::consts::PI;
+    for (direction, expected) in [
+        ("[0, 0, -1]", 1.0),
+        ("[1, 0, 0]", 0.8),
+        ("[0, 1, -1]", 0.9), // 45 degrees, linear between the two
+        ("[0, 0, 1]", 0.8),  // beyond the last angle
+    ] {
+        let (flux, notes) = only_luminaire(&folder, &format!("file = \"tilt.ies\"\ndirection = {direction}\n"));
+        assert!((flux / (full * expected) - 1.0).abs() < 1e-5, "{direction}: {flux}");
+        assert!(notes.iter().any(|n| n.contains("(TILT)")), "{notes:?}");
+    }
+    // a stated flux is that of the luminaire as it hangs
+    let (flux, _) = only_luminaire(&folder, "file = \"tilt.ies\"\ndirection = [1, 0, 0]\nflux = \"500 lm\"\n");
+    assert!((flux / 500.0 - 1.0).abs() < 1e-5);
+}
+
+#[test]
+fn a_file_in_watts_needs_a_spectrum_or_a_flux() {
+    let folder = Folder::new("watts");
+    std::fs::write(folder.0.join("watts.ies"), RADIANT).unwrap();
+    // 4 π 0.1 W at the efficacy of illuminant E over 380 to 780 nm, 182.4 lm/W (K_m 106.857 nm / 400 nm)
+    let (flux, notes) = only_luminaire(&folder, "file = \"watts.ies\"\nspectrum = \"E\"\n");
+    let expected = 0.4 * std::f32::consts::PI * 683.002 * 106.857 / 400.0;
+    assert!((flux / expected - 1.0).abs() < 1e-4, "{flux} {expected}");
+    assert!(notes.iter().any(|n| n.contains("W of the file are") && n.contains("(E, 380 to 780 nm")), "{notes:?}");
+    let (flux, _) = only_luminaire(&folder, "file = \"watts.ies\"\nflux = \"500 lm\"\n");
+    assert!((flux / 500.0 - 1.0).abs() < 1e-5);
+    let (flux, _) = only_luminaire(&folder, "file = \"watts.ies\"\nflux = \"2 W\"\nspectrum = \"E\"\n");
+    assert!((flux / (expected * 2.0 / 0.4 / std::f32::consts::PI) - 1.0).abs() < 1e-4);
+    let error = folder
+        .scene("[[lights]]\ntype = \"luminaire\"\nposition = [0, 0, 2]\nfile = \"watts.ies\"\n")
+        .err()
+        .unwrap_or_default();
+    assert!(error.contains("`watts.ies` counts watts, which need a named spectrum"), "{error}");
+    assert!(error.contains("or `flux` in lm"), "{error}");
+}
+
 #[test]
 fn sun_and_sky_stand_by_place_and_time() {
     let folder = Folder::new("sun");

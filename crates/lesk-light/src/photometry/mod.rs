@@ -273,6 +273,17 @@ impl Photometry {
         })
     }
 
+    /// A luminaire whose file counts watts, in lumens, cd and lm: by its spectrum's lumens per watt.
+    #[must_use]
+    pub fn in_lumens(mut self, lm_per_watt: f64) -> Self {
+        if self.counted == Counted::Power {
+            self.web = self.web.scaled(lm_per_watt);
+            self.stated_flux = self.stated_flux.map(|watts| watts * lm_per_watt);
+            self.counted = Counted::Light;
+        }
+        self
+    }
+
     /// Power of the luminaire, W; `None` where the file does not state it.
     pub fn watts(&self) -> Option<f64> {
         self.lamps.get(self.lamp_set).map(|set| set.watts).filter(|w| *w > 0.0)
