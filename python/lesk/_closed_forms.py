@@ -148,8 +148,8 @@ def cube(intensity: float, edge: float, rho: float, places: list[tuple[float, fl
 def cube_grid_mean(intensity: float, edge: float, rho: float, count: int) -> float:
     """Mean indirect illuminance at `count` x `count` midpoints of a face; the mean of the whole is `enclosure_mean`.
 
-    The midpoint rule does not see the dark edges well: it gives 0.1 % too much for 20 x 20 points, and a quarter of that
-    for twice as many.
+    The midpoint rule does not see the dark edges well: it gives 0.1 % too much for 20 x 20 points, and nearly a
+    quarter of that for twice as many.
     """
     # a quarter of the face stands for all
     places = [(x, y) for x in _middles(count) for y in _middles(count) if x > 0 and y > 0]

@@ -105,7 +105,7 @@ Written by `lesk validate lights --markdown docs/light_validation.md`, which exi
 {exact} of {rows} rows have no noise and lie within 1e-5 of the closed form, which is what single precision allows; {noisy} rows are Monte Carlo estimates with a standard error of at most 0.2 % of the value and |z| < 4.
 All cases begin with the same random numbers, so that the z of similar cases are alike.
 The closed forms are computed by `python/lesk/_closed_forms.py`, which knows nothing of the renderer; tests compare it with values printed elsewhere.
-The mean indirect illuminance of a closed room is Φρ / (S (1 - ρ)) over all of its surface. The midpoint rule of a grid sees more: 20 x 20 points of a face of the cube have 0.07 to 0.11 % more, which the reference has, too; 40 x 40 points a quarter of that.
+The mean indirect illuminance of a closed room is Φρ / (S (1 - ρ)) over all of its surface. The midpoint rule of a grid sees more: 20 x 20 points of a face of the cube have 0.07 to 0.11 % more, which the reference has, too; 80 x 80 points have 0.02 % more.
 The totals at single points of the cubes, and so the means over points, come from a radiosity solution with exact form factors, whose own error (1e-4 and 3e-4) is in the standard error.
 The geometry is that of CIE 171:2006 where it has the case (point, area source, glass, cube of 4 m); its printed tables were not available, so this is a comparison with the formulas, not a certificate.
 

@@ -21,7 +21,7 @@ pub struct Area {
     two_sided: bool,
     area: f64,
     form: Form,
-    map: Option<EmissionMap>,
+    map: Option<Box<EmissionMap>>,
 }
 
 #[derive(Clone, Debug)]
@@ -82,7 +82,7 @@ impl Area {
             Geometry::Mesh(mesh) => Form::Parts(Parts::triangles(mesh, place)),
             _ => Form::Whole(Box::new(sampler)),
         };
-        Ok(Area { luminance, two_sided, area, form, map: Some(map) })
+        Ok(Area { luminance, two_sided, area, form, map: Some(Box::new(map)) })
     }
 
     /// The same light, as bright all over as needed for this luminous flux in lm of all sides together.
@@ -128,7 +128,7 @@ impl Area {
 
     /// Mean luminance of a part, cd/m².
     fn mean(&self, part: usize) -> Color<f32> {
-        match (&self.form, self.map.as_ref().map(EmissionMap::carrier)) {
+        match (&self.form, self.map.as_deref().map(EmissionMap::carrier)) {
             (Form::Parts(parts), Some(Carrier::Mesh(map))) => {
                 parts.triangle(part as u32).map_or(self.luminance, |(_, prim)| self.luminance * map.mean(prim as usize))
             }
@@ -184,7 +184,7 @@ impl Area {
     }
 
     pub(crate) fn sample(&self, part: u32, at: &Receiver, u: [f32; 2]) -> Option<LightSample> {
-        let sample = match (&self.form, self.map.as_ref().map(EmissionMap::carrier)) {
+        let sample = match (&self.form, self.map.as_deref().map(EmissionMap::carrier)) {
             (Form::Whole(sampler), Some(Carrier::Shape(map))) => sample_shape(sampler, map, at, u),
             (Form::Whole(sampler), _) => sampler.sample_from(at.p, u),
             (Form::Parts(parts), Some(Carrier::Mesh(map))) => {
@@ -212,7 +212,7 @@ impl Area {
 
     /// The density of [`sample`](Self::sample) for the point that a ray from the receiver hit, 1/sr.
     pub(crate) fn pdf(&self, at: &Receiver, hit: &Surface) -> f32 {
-        match (&self.form, self.map.as_ref().map(EmissionMap::carrier)) {
+        match (&self.form, self.map.as_deref().map(EmissionMap::carrier)) {
             (Form::Whole(sampler), Some(Carrier::Shape(map))) => shape_pdf(sampler, map, at, hit.prim, hit.p, hit.ng),
             (Form::Whole(sampler), _) => sampler.pdf_from(at.p, hit.prim, hit.p, hit.ng),
             (Form::Parts(_), Some(Carrier::Mesh(map))) => {

@@ -99,7 +99,11 @@ fn corners_of(n: usize, cell: usize) -> [[f64; 2]; 3] {
     let along = cell - (2 * n * row - row * row);
     let at = |i: usize, j: usize| [i, j].map(|k| k as f64 / n as f64);
     let (i, j) = (row, along / 2);
-    if along % 2 == 0 { [at(i, j), at(i + 1, j), at(i, j + 1)] } else { [at(i + 1, j + 1), at(i, j + 1), at(i + 1, j)] }
+    if along.is_multiple_of(2) {
+        [at(i, j), at(i + 1, j), at(i, j + 1)]
+    } else {
+        [at(i + 1, j + 1), at(i, j + 1), at(i + 1, j)]
+    }
 }
 
 /// The cell that holds a point.
