@@ -3,26 +3,18 @@
 //! Conty Estevez & Kulla, *Importance Sampling of Many Lights with Adaptive Tree Splitting*, HPG 2018; the form of the
 //! estimate follows Pharr, Jakob & Humphreys, *Physically Based Rendering*, 4th ed., section 12.6.3.
 
-use crate::sample::Receiver;
 use lesk_geometry::{Bounds, Transform};
 use lesk_math::Vec3;
 use std::f64::consts::{FRAC_PI_2, PI};
-
-/// Cosines are compared with this slack, so that rounding never hides light that arrives.
-const SLACK: f32 = 1e-4;
-
-/// The share of the bound in an estimate; the rest is what the lights would send from their centre.
-///
-/// DEPARTS: the paper takes the bound alone, which favours large nodes at grazing angles. One sample of a tessellated
-/// sphere of 20,480 triangles scatters by 1.19 of its mean with shares of 1, 0.94 with 0.5, 0.49 with 0.1; one of 16,384
-/// points in a plane by 1.08, 0.89 and 0.65 (`tests/choosing.rs`). The share must stay above zero for light that arrives
-/// although none would from the centre; a tenth keeps its weight within ten times that of the bound alone.
-const BOUND_SHARE: f32 = 0.1;
 
 /// Bounds of one light, or of several together.
 #[derive(Clone, Copy, Debug)]
 pub struct LightBounds {
     bounds: Bounds,
+    /// Mean position of what shines.
+    center: Vec3<f32>,
+    /// Mean square of the distance from there, m².
+    variance: f32,
     /// Axis of the cone of main directions.
     axis: Vec3<f32>,
     /// Half angle of that cone, radians.
@@ -42,12 +34,16 @@ impl LightBounds {
 
     /// A point whose main directions lie within `spread` of the axis, and which shines `falloff` further; radians.
     pub(crate) fn cone(p: Vec3<f32>, axis: Vec3<f32>, spread: f64, falloff: f64, intensity: f32) -> Self {
-        LightBounds { bounds: Bounds { min: p, max: p }, axis, spread, falloff, intensity, two_sided: false }
+        let bounds = Bounds { min: p, max: p };
+        LightBounds { bounds, center: p, variance: 0.0, axis, spread, falloff, intensity, two_sided: false }
     }
 
     /// A diffuse surface within `bounds` whose normals lie within `spread` (radians) of the axis; `intensity` in cd.
     pub(crate) fn surface(bounds: Bounds, axis: Vec3<f32>, spread: f64, intensity: f32, two_sided: bool) -> Self {
-        LightBounds { bounds, axis, spread, falloff: FRAC_PI_2, intensity, two_sided }
+        let (center, radius) = (bounds.center(), bounds.radius());
+        // as for a rectangle, which reaches over its box
+        let variance = radius * radius / 3.0;
+        LightBounds { bounds, center, variance, axis, spread, falloff: FRAC_PI_2, intensity, two_sided }
     }
 
     /// Bound of the luminous intensity, cd.
@@ -56,7 +52,38 @@ impl LightBounds {
     }
 
     pub(crate) fn center(&self) -> Vec3<f32> {
-        self.bounds.center()
+        self.center
+    }
+
+    /// Mean square of the distance from the centre, m².
+    pub(crate) fn variance(&self) -> f32 {
+        self.variance
+    }
+
+    /// Of a sphere around the centre that holds everything, metres.
+    pub(crate) fn radius(&self) -> f32 {
+        let farthest = |lo: f32, hi: f32, c: f32| (c - lo).abs().max((hi - c).abs());
+        let (lo, hi, c) = (self.bounds.min, self.bounds.max, self.center);
+        let corner = Vec3::from([farthest(lo.x, hi.x, c.x), farthest(lo.y, hi.y, c.y), farthest(lo.z, hi.z, c.z)]);
+        corner.length() * (1.0 + 4.0 * f32::EPSILON)
+    }
+
+    pub(crate) fn axis(&self) -> Vec3<f32> {
+        self.axis
+    }
+
+    /// Half angle of the cone of main directions, radians.
+    pub(crate) fn spread(&self) -> f64 {
+        self.spread
+    }
+
+    /// How far beyond its main direction a light still shines, radians.
+    pub(crate) fn falloff(&self) -> f64 {
+        self.falloff
+    }
+
+    pub(crate) fn two_sided(&self) -> bool {
+        self.two_sided
     }
 
     pub(crate) fn extent(&self) -> Vec3<f32> {
@@ -66,8 +93,16 @@ impl LightBounds {
     /// Bounds of both together.
     pub(crate) fn union(&self, o: &LightBounds) -> LightBounds {
         let (axis, spread) = union_cone((self.axis, self.spread), (o.axis, o.spread));
+        // two lights without intensity count alike
+        let share = f64::from(o.intensity) / (f64::from(self.intensity) + f64::from(o.intensity));
+        let share = if share.is_finite() { share as f32 } else { 0.5 };
+        let apart = o.center - self.center;
         LightBounds {
             bounds: self.bounds.union(o.bounds),
+            center: self.center + apart * share,
+            variance: self.variance * (1.0 - share)
+                + o.variance * share
+                + apart.length_squared() * share * (1.0 - share),
             axis,
             spread,
             falloff: self.falloff.max(o.falloff),
@@ -85,20 +120,6 @@ impl LightBounds {
             2.0 * PI * (1.0 - cos_o) + FRAC_PI_2 * (2.0 * w * sin_o - (o - 2.0 * w).cos() - 2.0 * o * sin_o + cos_o);
         let diagonal = self.extent().map(f64::from).length_squared();
         f64::from(self.intensity) * measure.max(1e-6) * diagonal
-    }
-
-    pub(crate) fn node(&self) -> NodeBounds {
-        let (sin_spread, cos_spread) = self.spread.sin_cos();
-        NodeBounds {
-            center: self.bounds.center(),
-            radius: self.bounds.radius() * (1.0 + 4.0 * f32::EPSILON),
-            axis: self.axis,
-            cos_spread: cos_spread as f32,
-            sin_spread: sin_spread as f32,
-            cos_falloff: self.falloff.cos() as f32,
-            intensity: self.intensity,
-            two_sided: self.two_sided,
-        }
     }
 }
 
@@ -121,71 +142,4 @@ fn union_cone(a: (Vec3<f32>, f64), b: (Vec3<f32>, f64)) -> (Vec3<f32>, f64) {
         Ok(turn) => (turn.vector_f64(wa).normalize().map(|x| x as f32), (half + 1e-6).min(PI)),
         Err(_) => (a.0, PI),
     }
-}
-
-/// The same as it is needed while sampling.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct NodeBounds {
-    center: Vec3<f32>,
-    radius: f32,
-    axis: Vec3<f32>,
-    cos_spread: f32,
-    sin_spread: f32,
-    cos_falloff: f32,
-    intensity: f32,
-    two_sided: bool,
-}
-
-impl NodeBounds {
-    /// An estimate of the illuminance at the receiver, in lx; 0 only where no light of these arrives.
-    #[inline]
-    pub(crate) fn importance(&self, at: &Receiver) -> f32 {
-        let to = self.center - at.p;
-        let square = to.length_squared();
-        let distance = square.sqrt();
-        let wi = to * (1.0 / distance.max(1e-18));
-        // the angle under which the bounding sphere is seen
-        let sin_seen = self.radius / distance.max(1e-18);
-        let (sin_seen, cos_seen) =
-            if sin_seen < 1.0 { (sin_seen, (1.0 - sin_seen * sin_seen).sqrt()) } else { (0.0, -1.0) };
-        let mut cos_w = -wi.dot(self.axis);
-        if self.two_sided {
-            cos_w = cos_w.abs();
-        }
-        let (sin_x, cos_x) = minus((sine(cos_w), cos_w), (self.sin_spread, self.cos_spread));
-        let (_, cos_out) = minus((sin_x, cos_x), (sin_seen, cos_seen));
-        if cos_out <= self.cos_falloff - SLACK {
-            return 0.0;
-        }
-        // nearer than their own size, lights are treated as at that distance
-        let square = square.max(self.radius * self.radius).max(1e-30);
-        // of normals spread evenly over a cone, the mean leaves (1 + cos)/2 along the axis; points shine alike everywhere
-        let everywhere = self.cos_spread <= -1.0 + SLACK;
-        let from_center = if everywhere { cos_out } else { 0.5 * cos_w.max(0.0) * (1.0 + self.cos_spread) };
-        let estimate = self.intensity * blend(cos_out, from_center) / square;
-        let Some(n) = at.n else { return estimate };
-        let cos_n = wi.dot(n);
-        let (_, cos_in) = minus((sine(cos_n), cos_n), (sin_seen, cos_seen));
-        if cos_in <= -SLACK { 0.0 } else { estimate * blend(cos_in, cos_n.max(0.0)) }
-    }
-}
-
-/// A cosine between its bound and its value from the centre, never zero.
-#[inline]
-fn blend(bound: f32, from_center: f32) -> f32 {
-    (BOUND_SHARE * bound + (1.0 - BOUND_SHARE) * from_center).max(SLACK)
-}
-
-#[inline]
-fn sine(cos: f32) -> f32 {
-    (1.0 - cos * cos).max(0.0).sqrt()
-}
-
-/// Sine and cosine of max(0, a - b), from those of the angles a and b in [0, π].
-#[inline]
-fn minus((sin_a, cos_a): (f32, f32), (sin_b, cos_b): (f32, f32)) -> (f32, f32) {
-    if cos_a > cos_b {
-        return (0.0, 1.0);
-    }
-    ((sin_a * cos_b - cos_a * sin_b).max(0.0), cos_a * cos_b + sin_a * sin_b)
 }

@@ -2,32 +2,50 @@
 //!
 //! Conty Estevez & Kulla, *Importance Sampling of Many Lights with Adaptive Tree Splitting*, HPG 2018, without the
 //! splitting: one light per sample.
+//! DEPARTS: a node has eight children. Their estimates are made at once and are those of smaller groups than two children
+//! would be; a third of the levels adds a third of the error.
 
-use crate::bounds::{LightBounds, NodeBounds};
+use crate::bounds::LightBounds;
+use crate::groups::{Groups, WIDTH};
 use crate::sample::Receiver;
+use crate::split::{MOST_LEVELS, groups};
+use lesk_math::Isa;
 
-/// Depth below which nodes are halved by count: with at most 2^24 lights no path is longer than 64.
-const BALANCED_BELOW: u32 = 40;
 /// Most lights in one tree.
 pub const MAX_LIGHTS: usize = 1 << 24;
-const BUCKETS: usize = 12;
-const NO_LEAF: u32 = u32::MAX;
 
 /// Lights to choose from, by their bounds.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug)]
 pub struct LightTree {
+    /// The root is node 0; every child follows its parent.
     nodes: Vec<Node>,
-    /// For each light the way from the root, lowest bit first, 1 for the second child; and its length.
-    ways: Vec<Option<(u64, u8)>>,
+    /// The place of each light: its node times [`WIDTH`], plus its number there; `NOWHERE` for one without intensity.
+    places: Vec<u32>,
+    /// How many lights can be chosen.
+    count: usize,
+    /// Available on this processor.
+    isa: Isa,
 }
 
-#[derive(Clone, Copy, Debug)]
+const NOWHERE: u32 = u32::MAX;
+
+#[derive(Clone, Debug)]
 struct Node {
-    bounds: NodeBounds,
-    /// The light of a leaf, else `NO_LEAF`.
-    leaf: u32,
-    /// The second child; the first one follows its parent.
-    second: u32,
+    groups: Groups,
+    /// A node, or with `LIGHT` a light.
+    children: [u32; WIDTH],
+    /// The place of this node among the children of its parent, as in `places`.
+    place: u32,
+}
+
+/// Marks a child that is a light.
+const LIGHT: u32 = 1 << 31;
+
+impl Default for LightTree {
+    /// Without a light.
+    fn default() -> Self {
+        LightTree::new(&[])
+    }
 }
 
 impl LightTree {
@@ -38,178 +56,110 @@ impl LightTree {
     pub fn new(lights: &[LightBounds]) -> Self {
         assert!(lights.len() <= MAX_LIGHTS, "a light tree holds at most {MAX_LIGHTS} lights");
         let mut order: Vec<u32> = (0..lights.len() as u32).filter(|&i| lights[i as usize].intensity() > 0.0).collect();
-        let mut tree = LightTree { nodes: vec![], ways: vec![None; lights.len()] };
+        let mut tree =
+            LightTree { nodes: vec![], places: vec![NOWHERE; lights.len()], count: order.len(), isa: Isa::current() };
         if !order.is_empty() {
-            tree.build(lights, &mut order, 0, 0);
+            tree.build(lights, &mut order, NOWHERE, 0);
         }
         tree
     }
 
     /// Whether no light can be chosen.
     pub fn is_empty(&self) -> bool {
-        self.nodes.is_empty()
+        self.count == 0
     }
 
     /// An estimate of the illuminance by all lights at the receiver, lx; 0 only where none arrives.
     #[inline]
     pub fn illuminance(&self, receiver: &Receiver) -> f32 {
-        self.nodes.first().map_or(0.0, |root| root.bounds.importance(receiver))
+        self.nodes.first().map_or(0.0, |root| root.groups.estimates(receiver, self.isa).1)
     }
 
-    fn build(&mut self, lights: &[LightBounds], order: &mut [u32], way: u64, depth: u32) -> LightBounds {
+    /// Adds the node for some lights, and all below it.
+    fn build(&mut self, lights: &[LightBounds], order: &mut [u32], place: u32, level: usize) {
         let at = self.nodes.len();
-        if let [single] = *order {
-            let bounds = lights[single as usize];
-            self.ways[single as usize] = Some((way, depth as u8));
-            self.nodes.push(Node { bounds: bounds.node(), leaf: single, second: 0 });
-            return bounds;
+        self.nodes.push(Node { groups: Groups::EMPTY, children: [NOWHERE; WIDTH], place });
+        for (slot, (range, bounds)) in groups(lights, order, level).into_iter().enumerate() {
+            let place = (at * WIDTH + slot) as u32;
+            self.nodes[at].groups.set(slot, &bounds);
+            if let [single] = order[range.clone()] {
+                self.nodes[at].children[slot] = LIGHT | single;
+                self.places[single as usize] = place;
+            } else {
+                self.nodes[at].children[slot] = self.nodes.len() as u32;
+                self.build(lights, &mut order[range], place, level + 1);
+            }
         }
-        self.nodes.push(Node { bounds: lights[order[0] as usize].node(), leaf: NO_LEAF, second: 0 });
-        let middle = split(lights, order, depth);
-        let (left, right) = order.split_at_mut(middle);
-        let first = self.build(lights, left, way, depth + 1);
-        self.nodes[at].second = self.nodes.len() as u32;
-        let second = self.build(lights, right, way | 1 << depth, depth + 1);
-        let bounds = first.union(&second);
-        self.nodes[at].bounds = bounds.node();
-        bounds
-    }
-
-    /// The probability of the first child of the inner node `at`; `None` where both are useless.
-    #[inline]
-    fn first_share(&self, at: usize, receiver: &Receiver) -> Option<f32> {
-        let first = self.nodes[at + 1].bounds.importance(receiver);
-        let second = self.nodes[self.nodes[at].second as usize].bounds.importance(receiver);
-        let share = first / (first + second);
-        // infinite or NaN where both are out of range: equal chances
-        if first == 0.0 && second == 0.0 { None } else { Some(if share.is_finite() { share } else { 0.5 }) }
     }
 
     /// Chooses a light for the receiver with `u` in [0, 1); `None` where none of them contributes.
     pub fn sample(&self, receiver: &Receiver, mut u: f64) -> Option<(u32, f32)> {
-        if self.nodes.is_empty() {
-            return None;
+        let (mut node, mut pmf) = (self.nodes.first()?, 1.0);
+        if self.count == 1 {
+            return Some((node.children[0] & !LIGHT, 1.0));
         }
-        let (mut at, mut pmf) = (0, 1.0);
-        while self.nodes[at].leaf == NO_LEAF {
-            let share = self.first_share(at, receiver)?;
-            let wide = f64::from(share);
-            if u < wide {
-                u /= wide;
-                pmf *= share;
-                at += 1;
-            } else {
-                u = (u - wide) / (1.0 - wide);
-                pmf *= 1.0 - share;
-                at = self.nodes[at].second as usize;
+        loop {
+            let (child, chance, within) = choose(&node.shares(receiver, self.isa)?, u);
+            pmf *= chance;
+            u = within;
+            let child = node.children[child];
+            if child & LIGHT != 0 {
+                return (pmf > 0.0).then_some((child & !LIGHT, pmf));
             }
+            node = &self.nodes[child as usize];
         }
-        (pmf > 0.0).then_some((self.nodes[at].leaf, pmf))
     }
 
     /// The probability with which [`sample`](Self::sample) chooses `light` for the receiver.
     pub fn pmf(&self, receiver: &Receiver, light: u32) -> f32 {
-        let Some(Some((mut way, depth))) = self.ways.get(light as usize).copied() else { return 0.0 };
-        let (mut at, mut pmf) = (0, 1.0);
-        for _ in 0..depth {
-            let Some(share) = self.first_share(at, receiver) else { return 0.0 };
-            if way & 1 == 0 {
-                pmf *= share;
-                at += 1;
-            } else {
-                pmf *= 1.0 - share;
-                at = self.nodes[at].second as usize;
-            }
-            way >>= 1;
+        let Some(mut place) = self.places.get(light as usize).copied().filter(|&place| place != NOWHERE) else {
+            return 0.0;
+        };
+        if self.count == 1 {
+            return 1.0;
+        }
+        // from the light to the root
+        let (mut way, mut levels) = ([0; MOST_LEVELS], 0);
+        while place != NOWHERE {
+            way[levels] = place;
+            levels += 1;
+            place = self.nodes[place as usize / WIDTH].place;
+        }
+        let mut pmf = 1.0;
+        for &place in way[..levels].iter().rev() {
+            let Some(shares) = self.nodes[place as usize / WIDTH].shares(receiver, self.isa) else { return 0.0 };
+            pmf *= shares[place as usize % WIDTH];
         }
         pmf
     }
 }
 
-/// Orders the lights into two parts of least cost and returns the size of the first, neither 0 nor all.
-fn split(lights: &[LightBounds], order: &mut [u32], depth: u32) -> usize {
-    let centers = order.iter().map(|&i| lights[i as usize].center().to_array());
-    let (mut lo, mut hi) = ([f32::INFINITY; 3], [f32::NEG_INFINITY; 3]);
-    for c in centers {
-        for k in 0..3 {
-            (lo[k], hi[k]) = (lo[k].min(c[k]), hi[k].max(c[k]));
+impl Node {
+    /// The probabilities of the children; `None` where no light of any arrives.
+    #[inline]
+    fn shares(&self, receiver: &Receiver, isa: Isa) -> Option<[f32; WIDTH]> {
+        let (estimates, sum) = self.groups.estimates(receiver, isa);
+        if sum > 0.0 && sum <= f32::MAX {
+            return Some(estimates.map(|estimate| estimate / sum));
         }
+        // infinite or NaN where some are out of range: equal chances
+        let count = estimates.iter().filter(|&&estimate| estimate != 0.0).count();
+        (count > 0).then(|| estimates.map(|estimate| if estimate != 0.0 { 1.0 / count as f32 } else { 0.0 }))
     }
-    let widest = (0..3).max_by(|&a, &b| (hi[a] - lo[a]).total_cmp(&(hi[b] - lo[b]))).unwrap_or(0);
-    if depth < BALANCED_BELOW
-        && let Some((axis, bucket)) = best_plane(lights, order, lo, hi)
-    {
-        let first = partition(order, |i| bucket_of(lights, i, axis, lo, hi) <= bucket);
-        if 0 < first && first < order.len() {
-            return first;
-        }
-    }
-    let key = |i: &u32| lights[*i as usize].center().to_array()[widest];
-    order.sort_by(|a, b| key(a).total_cmp(&key(b)).then(a.cmp(b)));
-    order.len() / 2
 }
 
-fn bucket_of(lights: &[LightBounds], light: u32, axis: usize, lo: [f32; 3], hi: [f32; 3]) -> usize {
-    let c = lights[light as usize].center().to_array()[axis];
-    let t = (c - lo[axis]) / (hi[axis] - lo[axis]);
-    ((t * BUCKETS as f32) as usize).min(BUCKETS - 1)
-}
-
-/// The axis and last bucket of the first part with the least cost; `None` where all centres coincide.
-fn best_plane(lights: &[LightBounds], order: &[u32], lo: [f32; 3], hi: [f32; 3]) -> Option<(usize, usize)> {
-    let longest = (0..3).map(|k| hi[k] - lo[k]).fold(0.0, f32::max);
-    let mut best: Option<(f64, usize, usize)> = None;
-    for axis in (0..3).filter(|&k| hi[k] > lo[k]) {
-        let mut buckets: [Option<LightBounds>; BUCKETS] = [None; BUCKETS];
-        for &i in order {
-            let slot = &mut buckets[bucket_of(lights, i, axis, lo, hi)];
-            let light = &lights[i as usize];
-            *slot = Some(slot.as_ref().map_or(*light, |s| s.union(light)));
+/// The child that `u` in [0, 1) chooses, its probability, and where in its share `u` lies, from 0 to 1.
+#[inline]
+fn choose(shares: &[f32; WIDTH], u: f64) -> (usize, f32, f64) {
+    let mut before = 0.0;
+    let mut last = (0, 0.0, 0.0);
+    for (child, &share) in shares.iter().enumerate().filter(|(_, share)| **share > 0.0) {
+        let wide = f64::from(share);
+        last = (child, share, ((u - before) / wide).min(1.0 - f64::EPSILON));
+        if u < before + wide {
+            break;
         }
-        // thin nodes are better than long ones: the regulariser K_r of section 4.4
-        let regular = f64::from(longest / (hi[axis] - lo[axis]));
-        for (plane, cost) in plane_costs(&buckets).into_iter().enumerate() {
-            let cost = cost * regular;
-            if cost > 0.0 && best.is_none_or(|(c, ..)| cost < c) {
-                best = Some((cost, axis, plane));
-            }
-        }
+        before += wide;
     }
-    best.map(|(_, axis, plane)| (axis, plane))
-}
-
-/// The cost of splitting behind each bucket but the last; 0 where a part would be empty.
-fn plane_costs(buckets: &[Option<LightBounds>; BUCKETS]) -> [f64; BUCKETS - 1] {
-    let join = |a: Option<LightBounds>, b: &Option<LightBounds>| match (a, b) {
-        (Some(a), Some(b)) => Some(a.union(b)),
-        (a, b) => a.or(*b),
-    };
-    let mut costs = [0.0; BUCKETS - 1];
-    let mut below = None;
-    let mut first = [None; BUCKETS];
-    for i in 0..BUCKETS {
-        below = join(below, &buckets[i]);
-        first[i] = below;
-    }
-    let mut above = None;
-    for i in (0..BUCKETS - 1).rev() {
-        above = join(above, &buckets[i + 1]);
-        if let (Some(a), Some(b)) = (&first[i], &above) {
-            // single lights cost nothing; keep such planes eligible
-            costs[i] = (a.cost() + b.cost()).max(f64::MIN_POSITIVE);
-        }
-    }
-    costs
-}
-
-/// Moves the entries for which `keep` holds to the front and returns their number.
-fn partition(order: &mut [u32], keep: impl Fn(u32) -> bool) -> usize {
-    let mut count = 0;
-    for i in 0..order.len() {
-        if keep(order[i]) {
-            order.swap(i, count);
-            count += 1;
-        }
-    }
-    count
+    last
 }

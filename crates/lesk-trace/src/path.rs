@@ -117,10 +117,14 @@ impl<'a> Path<'a> {
                 self.add_background(ray.d, &last);
                 return;
             };
+            let is_last = bounce >= self.limits.max_depth;
+            let ends = is_last && bounce > 0;
+            if ends && self.scene.objects[hit.instance as usize].light.is_none() {
+                return;
+            }
             let surface = self.scene.world.surface(&ray, &hit);
             self.add_emission(&surface, -ray.d, &last);
-            let is_last = bounce >= self.limits.max_depth;
-            if is_last && bounce > 0 {
+            if ends {
                 return;
             }
             let Some(mut vertex) = Vertex::new(self.scene, surface, -ray.d, &mut table) else { return };
