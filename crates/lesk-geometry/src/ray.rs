@@ -38,6 +38,7 @@ impl Ray {
     }
 
     /// From the surface along `d` without end, lifted off the side that `d` leaves from.
+    #[inline]
     pub fn leaving(from: &Surface, d: Vec3<f32>) -> Self {
         Ray::new(from.lifted(d), d)
     }
@@ -50,6 +51,7 @@ impl Ray {
     }
 
     /// From the surface to a point on another one, lifted off both.
+    #[inline]
     pub fn to_sample(from: &Surface, to: &SurfaceSample) -> Self {
         let back = from.p - to.p;
         // `d` is rounded to half a digit of its own: far away that is more than the digits of the point

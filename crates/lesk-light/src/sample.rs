@@ -58,6 +58,7 @@ pub struct LightSample {
 
 impl LightSample {
     /// The ray that must be free of obstacles for the light to arrive at `from`.
+    #[inline]
     pub fn shadow_ray(&self, from: &Surface) -> Ray {
         match &self.target {
             Target::Surface(sample) => Ray::to_sample(from, sample),

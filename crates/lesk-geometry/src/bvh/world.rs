@@ -226,12 +226,14 @@ const UPPER: u32 = 0;
 
 impl World {
     /// The nearest surface along the ray. Of several at exactly the same distance, always the same one.
+    #[inline]
     pub fn intersect(&self, ray: &Ray) -> Option<Hit> {
         let mut best = Best::none(ray.t_max);
         self.cast::<false>(ray, &mut best).then(|| self.hit(&best))
     }
 
     /// Whether anything lies on the ray.
+    #[inline]
     pub fn occluded(&self, ray: &Ray) -> bool {
         self.cast::<true>(ray, &mut Best::none(ray.t_max))
     }
@@ -267,6 +269,7 @@ impl World {
         walk::<Portable, O, ANY>(tree, ray, source, others, best)
     }
 
+    #[inline]
     fn hit(&self, best: &Best) -> Hit {
         let (instance, prim) =
             if best.source == UPPER { owner(&self.copies, best.id) } else { (best.source - 1, best.id) };
@@ -282,6 +285,7 @@ impl World {
     }
 
     /// The surface where `hit`, found along `ray`, lies.
+    #[inline]
     pub fn surface(&self, ray: &Ray, hit: &Hit) -> Surface {
         let instance = &self.instances[hit.instance as usize];
         let (geometry, place) = (&self.geometries[instance.geometry as usize], &instance.place);
