@@ -35,7 +35,7 @@ ARGUMENTS = {
     "cos_theta": ("(...)", "cosine between the direction and the (facet) normal, 0 to 1"),
     "eta": ("(...)", "refractive index, relative to the side of the light"),
     "f0": ("(..., 3) or a number", "reflectance at normal incidence"),
-    "h": ("(..., 3)", "facet normals of any length, local frame"),
+    "h": ("(..., 3)", "facet normals of any length (for V-grooves: wi + wo), local frame"),
     "k": ("(...)", "extinction coefficient"),
     "n": ("(...)", "exponent"),
     "roughness": ("(...)", "the dial, 0 to 1; alpha is its square"),

@@ -15,6 +15,7 @@ import pytest
 
 import lesk
 from lesk.cli import COMMANDS, main
+from lesk.cli.render import duration
 
 SCENES = Path(__file__).parents[2] / "examples" / "scenes"
 
@@ -222,6 +223,11 @@ def test_ctrl_c_keeps_what_is_done(scene: Path, tmp_path: Path) -> None:
     assert time.monotonic() - start < 5
     assert process.returncode == 130 and "interrupted" in errors
     assert np.isfinite(lesk.image.read(path)).all()
+
+
+def test_times_left_are_told_as_people_do():
+    told = [duration(seconds) for seconds in (0.4, 42, 99.4, 99.6, 5999, 12_000)]
+    assert told == ["0 s", "42 s", "99 s", "2 min", "1 h 40 min", "3 h 20 min"]
 
 
 def test_nothing_but_the_data_goes_to_standard_output(scene: Path, tmp_path: Path) -> None:

@@ -43,9 +43,15 @@ impl Finding {
         exceeds(self.value, self.allowed)
     }
 
-    /// The worse of two findings: a violation before none, then the larger value.
+    /// The worse of two findings: a violation before none, of violations the larger value, else the larger part of what
+    /// is allowed.
     pub fn worse(self, other: Finding) -> Finding {
-        let rank = |f: &Finding| (f.violates(), if f.value.is_nan() { f64::INFINITY } else { f.value });
+        let size = |f: &Finding| match f.value {
+            nan if nan.is_nan() => f64::INFINITY,
+            value if f.violates() || f.allowed <= 0.0 => value,
+            value => value / f.allowed,
+        };
+        let rank = |f: &Finding| (f.violates(), size(f));
         let (a, b) = (rank(&self), rank(&other));
         if b.0 & !a.0 || b.0 == a.0 && b.1 > a.1 { other } else { self }
     }

@@ -23,6 +23,10 @@ details summary { cursor: pointer } .note { max-width: 30rem; font-size: .88em; 
 .model .wide { flex: 1 1 36rem } svg { flex: 0 0 auto } svg text { fill: currentColor; font: 10px system-ui, sans-serif }
 ";
 
+fn count(models: usize) -> String {
+    if models == 1 { "one model".into() } else { format!("{models} models") }
+}
+
 /// The page: a matrix of models and properties, and a table with albedo curves per model.
 pub fn html(reports: &[Report]) -> String {
     let mut out = String::from("<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\n");
@@ -36,7 +40,7 @@ pub fn html(reports: &[Report]) -> String {
     } else {
         format!("<span class=\"bad\">{failed} failed</span>")
     };
-    let _ = writeln!(out, "<p>{rows} statements about {} models: {state}.", reports.len());
+    let _ = writeln!(out, "<p>{rows} statements about {}: {state}.", count(reports.len()));
     out.push_str("A property is claimed and tested, or refuted by a counterexample; nothing is left open.</p>\n");
     matrix(&mut out, reports);
     for report in reports {

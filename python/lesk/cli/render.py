@@ -206,6 +206,14 @@ def report(picture: Render, output: Path, ev100: float | None, *, interrupted: b
         print(f"{picture.rejected} samples were not finite and count as black", file=sys.stderr)
 
 
+def duration(seconds: float) -> str:
+    """Tell a time as people do: `42 s`, `7 min`, `3 h 20 min`."""
+    if seconds < 99.5:
+        return f"{seconds:.0f} s"
+    minutes = round(seconds / 60)
+    return f"{minutes} min" if minutes < 100 else f"{minutes // 60} h {minutes % 60} min"
+
+
 class Bar:
     """A line with a bar and the time left, on a terminal."""
 
@@ -220,7 +228,7 @@ class Bar:
 
     def __call__(self, now: Progress) -> None:
         """Show how far the render is."""
-        left = "" if now.left is None else f"{now.left:.0f} s left"
+        left = "" if now.left is None else f"{duration(now.left)} left"
         self._progress.update(self._task, completed=now.done, total=now.total, left=left)
 
     def close(self) -> None:
