@@ -1,7 +1,6 @@
-"""Writes what is generated from the registry and the Rust sources; `cargo xtask codegen` runs it.
+"""Writes what is generated from the registry and the Rust sources (`--write`), or compares (`--check`).
 
-`python python/stubs.py` prints the stub of `lesk.models`; `python python/stubs.py terms/ndf.py` prints that module.
-`python python/stubs.py --write` writes all of them, `--check` compares.
+`cargo xtask codegen` runs it.
 """
 
 from __future__ import annotations
@@ -144,18 +143,19 @@ def generated() -> dict[str, str]:
 
 
 def main(arguments: list[str]) -> int:
-    """Print, write or compare."""
+    """Write or compare."""
     if arguments == ["--write"]:
         for name, content in generated().items():
             (PACKAGE / name).write_text(content, encoding="utf-8")
+            print(f"wrote python/lesk/{name}")
         return 0
     if arguments == ["--check"]:
-        stale = [n for n, content in generated().items() if (PACKAGE / n).read_text() != content]
+        stale = [n for n, content in generated().items() if (PACKAGE / n).read_text(encoding="utf-8") != content]
         for name in stale:
-            print(f"python/lesk/{name} is out of date\nhint: `python python/stubs.py --write`")
+            print(f"error: python/lesk/{name} is out of date\nhint: `cargo xtask codegen` writes it")
         return 1 if stale else 0
-    sys.stdout.write(generated()[arguments[0] if arguments else "models.pyi"])
-    return 0
+    print("error: `--write` or `--check` is accepted")
+    return 2
 
 
 if __name__ == "__main__":

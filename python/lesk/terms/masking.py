@@ -116,7 +116,7 @@ def v_groove_g1(w: npt.ArrayLike, h: npt.ArrayLike) -> Array:
     w : array_like of shape (..., 3)
         unit vectors, local frame
     h : array_like of shape (..., 3)
-        facet normals of any length, local frame
+        facet normals of any length (for V-grooves: wi + wo), local frame
 
     Returns
     -------
@@ -138,7 +138,7 @@ def v_groove(wi: npt.ArrayLike, wo: npt.ArrayLike, h: npt.ArrayLike) -> Array:
     wo : array_like of shape (..., 3)
         unit vectors to the viewer, local frame
     h : array_like of shape (..., 3)
-        facet normals of any length, local frame
+        facet normals of any length (for V-grooves: wi + wo), local frame
 
     Returns
     -------

@@ -33,7 +33,7 @@ def ggx(h: npt.ArrayLike, alpha_x: npt.ArrayLike, alpha_y: npt.ArrayLike) -> Arr
     Parameters
     ----------
     h : array_like of shape (..., 3)
-        facet normals of any length, local frame
+        facet normals of any length (for V-grooves: wi + wo), local frame
     alpha_x : array_like of shape (...)
         width of the facet slopes along the tangent, dimensionless
     alpha_y : array_like of shape (...)
@@ -79,7 +79,7 @@ def beckmann(h: npt.ArrayLike, alpha_x: npt.ArrayLike, alpha_y: npt.ArrayLike) -
     Parameters
     ----------
     h : array_like of shape (..., 3)
-        facet normals of any length, local frame
+        facet normals of any length (for V-grooves: wi + wo), local frame
     alpha_x : array_like of shape (...)
         width of the facet slopes along the tangent, dimensionless
     alpha_y : array_like of shape (...)
@@ -98,7 +98,7 @@ def beckmann_tan2(h: npt.ArrayLike, alpha_x: npt.ArrayLike, alpha_y: npt.ArrayLi
     Parameters
     ----------
     h : array_like of shape (..., 3)
-        facet normals of any length, local frame
+        facet normals of any length (for V-grooves: wi + wo), local frame
     alpha_x : array_like of shape (...)
         width of the facet slopes along the tangent, dimensionless
     alpha_y : array_like of shape (...)
@@ -142,7 +142,7 @@ def gtr1(h: npt.ArrayLike, alpha: npt.ArrayLike) -> Array:
     Parameters
     ----------
     h : array_like of shape (..., 3)
-        facet normals of any length, local frame
+        facet normals of any length (for V-grooves: wi + wo), local frame
     alpha : array_like of shape (...)
         width of the facet slopes, dimensionless
 
@@ -197,7 +197,7 @@ def sample_v_groove(h: npt.ArrayLike, wo: npt.ArrayLike, u: npt.ArrayLike) -> Ar
     Parameters
     ----------
     h : array_like of shape (..., 3)
-        facet normals of any length, local frame
+        facet normals of any length (for V-grooves: wi + wo), local frame
     wo : array_like of shape (..., 3)
         unit vectors to the viewer, local frame
     u : array_like of shape (...)
