@@ -181,7 +181,7 @@ ERRATA = (
         "lm",
         lambda: 680.0,
         lambda: 683.002,
-        "",
+        "lesk quantity '1 W @ 555 nm' --to lm --km '680 lm/W'",
     ),
     Erratum(
         "four_times_h",

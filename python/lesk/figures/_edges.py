@@ -197,7 +197,14 @@ def crease_angle(*, limit_deg: float = 40) -> Plot:
                 arrow(axes, at, at + 0.7 * normal, color)
             axes.plot(*at, "s" if real else "o", color=color, markersize=6)
             axes.annotate(
-                f"{angle:.0f}°", tuple(at), (0, -17), textcoords="offset points", ha="center", fontsize=9, color=color
+                f"{angle:.0f}°",
+                tuple(at),
+                tuple(-19 * mean),
+                textcoords="offset points",
+                ha="center",
+                va="center",
+                fontsize=9,
+                color=color,
             )
         axes.plot([], [], "o", color=CURVES[0], label=f"auxiliary: up to {limit_deg:g}°, one normal")
         axes.plot([], [], "s", color=MARK, label=f"real: above {limit_deg:g}°, two normals")

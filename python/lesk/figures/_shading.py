@@ -435,7 +435,8 @@ def mach_bands(*, width: int = 300) -> Animation:
                 axes.plot(row, color=CURVES[0], linewidth=1.4, label="brightness")
                 axes.plot(inhibited(row), color=CURVES[1], linestyle=":", linewidth=1.6, label="as seen")
                 axes.set(ylim=(0, 1.25), xlim=(0, width - 1), xticks=[], xlabel="across the cylinder")
-            grid[1, 0].legend(fontsize=8, loc="lower left", ncols=2)
+            # the curve of Gouraud shading is high there for every number of sides
+            grid[1, 1].legend(fontsize=8, loc="lower left")
             grid[1, 0].set_ylabel("brightness")
         drawings.append(drawn(fig))
     return Animation(drawings, seconds=0.9)
