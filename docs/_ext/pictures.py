@@ -24,6 +24,11 @@ SHOWN = {
 FIGURES = {
     "observers": lesk.plot.observers,
     "lamps": lambda: lesk.plot.spectrum(["A", "D65", "FL2", "LED-B3"]),
+    "luminaire-polar": lambda: lesk.plot.intensity(lesk.light.read(SCENES / "batwing.ies")),
+    "luminaire-web": lambda: lesk.plot.web(lesk.light.read(SCENES / "batwing.ies")),
+    "skies": lambda: lesk.plot.sky(
+        [lesk.light.HosekSky(t, elevation_deg=e, ground=0.2) for t in (2, 4, 8) for e in (3, 15, 40, 70)]
+    ),
 }
 
 
@@ -70,6 +75,7 @@ def renders():
     return {
         "scene.png": lambda path: rendered("glass_and_metal.toml", size=(480, 360), spp=81).save(path),
         "layers.png": layers,
+        "clear_sky.png": lambda path: rendered("clear_sky.toml", size=(480, 270), spp=100).save(path),
     }
 
 
