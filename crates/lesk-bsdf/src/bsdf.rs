@@ -65,8 +65,8 @@ pub fn in_domain<R: Real>(domain: Domain, w: Vec3<R>) -> R::Mask {
         Domain::Upper => w.z,
         Domain::BothSides | Domain::Sphere => w.z.abs(),
     };
-    // an infinite or NaN component makes the product NaN, and the comparison false
-    let finite = ((w.x + w.y + w.z) * R::ZERO).le(R::ZERO);
+    // an infinite or NaN component makes the product NaN, and the comparison false; loops know the squared length anyway
+    let finite = (w.length_squared() * R::ZERO).le(R::ZERO);
     z.ge(R::lit(MIN_COS)) & finite
 }
 

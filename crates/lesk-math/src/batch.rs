@@ -81,6 +81,10 @@ impl<const FMA: bool> Real for Lane<FMA> {
         crate::poly::log2(self)
     }
     #[inline(always)]
+    fn log2_1p(self) -> Self {
+        crate::poly::log2_1p(self)
+    }
+    #[inline(always)]
     fn sin(self) -> Self {
         crate::poly::sin(self)
     }

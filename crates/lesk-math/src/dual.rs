@@ -161,6 +161,10 @@ impl<R: Real, const N: usize> Real for Dual<R, N> {
         self.chain(self.v.log2(), R::lit(core::f64::consts::LOG2_E) / self.v.max(R::lit(TINY)))
     }
     #[inline(always)]
+    fn log2_1p(self) -> Self {
+        self.chain(self.v.log2_1p(), R::lit(core::f64::consts::LOG2_E) / (R::ONE + self.v))
+    }
+    #[inline(always)]
     fn ln(self) -> Self {
         self.chain(self.v.ln(), self.v.max(R::lit(TINY)).recip())
     }

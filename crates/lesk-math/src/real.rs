@@ -87,6 +87,13 @@ pub trait Real:
     fn recip(self) -> Self {
         Self::ONE / self
     }
+    /// log2(1 + self) for `self >= 0`, with all digits where it is small.
+    #[inline(always)]
+    fn log2_1p(self) -> Self {
+        let sum = Self::ONE + self;
+        // the second term is what rounding took from the sum
+        sum.log2() + (self - (sum - Self::ONE)) / sum * Self::lit(core::f64::consts::LOG2_E)
+    }
     /// `self` to the power of a small constant, by repeated multiplication.
     #[inline(always)]
     fn powi(self, n: u32) -> Self {
@@ -222,6 +229,10 @@ impl Real for f32 {
         crate::poly::log2(self)
     }
     #[inline(always)]
+    fn log2_1p(self) -> f32 {
+        crate::poly::log2_1p(self)
+    }
+    #[inline(always)]
     fn sin(self) -> f32 {
         crate::poly::sin(self)
     }
@@ -315,6 +326,10 @@ impl Real for f64 {
     #[inline]
     fn log2(self) -> f64 {
         libm::log2(self)
+    }
+    #[inline]
+    fn log2_1p(self) -> f64 {
+        libm::log1p(self) * core::f64::consts::LOG2_E
     }
     #[inline]
     fn exp(self) -> f64 {

@@ -94,6 +94,17 @@ error_bound!(
     2.1
 );
 error_bound!(
+    log2_1p_is_within_2_4_ulp,
+    log2_1p,
+    |x| libm::log1p(x) * core::f64::consts::LOG2_E,
+    0.0,
+    f32::MAX,
+    601,
+    [TINY, 1e-7, core::f32::consts::SQRT_2 - 1.0, 1.0],
+    ulp,
+    2.4
+);
+error_bound!(
     sin_is_within_2_2_ulp_for_two_turns,
     sin,
     libm::sin,

@@ -9,39 +9,35 @@ use std::arch::x86_64::*;
 /// Values in a register.
 const EIGHT: usize = 8;
 
-/// The components x, y, z of 8 vectors (Intel, *3D Vector Normalization Using 256-Bit Intel AVX*, 2011).
+/// Lanes of three registers such that each lane is that of one of them: 0, 3, 6 of the first, 1, 4, 7 of the second and
+/// 2, 5 of the third. Where 8 vectors stand one after the other, these are their x; one lane further their y, then their z.
+#[target_feature(enable = "avx2")]
+#[inline]
+fn weave([a, b, c]: [__m256; 3]) -> __m256 {
+    _mm256_blend_ps::<0b00100100>(_mm256_blend_ps::<0b10010010>(a, b), c)
+}
+
+/// The components x, y, z of 8 vectors.
 #[target_feature(enable = "avx2")]
 #[inline]
 fn split8(from: &[f32; 3 * EIGHT]) -> [__m256; 3] {
-    let quads = from.as_chunks::<4>().0;
-    // SAFETY: each quad is four values
-    let quad = |i: usize| unsafe { _mm_loadu_ps(quads[i].as_ptr()) };
-    // the low halves hold vectors 0 to 3, the high ones 4 to 7
-    let [m0, m1, m2] = [0, 1, 2].map(|i| _mm256_insertf128_ps::<1>(_mm256_castps128_ps256(quad(i)), quad(i + 3)));
-    let xy = _mm256_shuffle_ps::<0b10_01_11_10>(m1, m2);
-    let yz = _mm256_shuffle_ps::<0b01_00_10_01>(m0, m1);
+    // SAFETY: there are 8 values each
+    let [a, b, c] = [0, 1, 2].map(|i| unsafe { _mm256_loadu_ps(from.as_chunks::<EIGHT>().0[i].as_ptr()) });
     [
-        _mm256_shuffle_ps::<0b10_00_11_00>(m0, xy),
-        _mm256_shuffle_ps::<0b11_01_10_00>(yz, xy),
-        _mm256_shuffle_ps::<0b11_00_11_01>(yz, m2),
+        _mm256_permutevar8x32_ps(weave([a, b, c]), _mm256_setr_epi32(0, 3, 6, 1, 4, 7, 2, 5)),
+        _mm256_permutevar8x32_ps(weave([c, a, b]), _mm256_setr_epi32(1, 4, 7, 2, 5, 0, 3, 6)),
+        _mm256_permutevar8x32_ps(weave([b, c, a]), _mm256_setr_epi32(2, 5, 0, 3, 6, 1, 4, 7)),
     ]
 }
 
-/// 8 vectors of components x, y, z (Intel, as above).
+/// 8 vectors of components x, y, z.
 #[target_feature(enable = "avx2")]
 #[inline]
 fn join8([x, y, z]: [__m256; 3]) -> [__m256; 3] {
-    let xy = _mm256_shuffle_ps::<0b10_00_10_00>(x, y);
-    let yz = _mm256_shuffle_ps::<0b11_01_11_01>(y, z);
-    let zx = _mm256_shuffle_ps::<0b11_01_10_00>(z, x);
-    let m0 = _mm256_shuffle_ps::<0b10_00_10_00>(xy, zx);
-    let m1 = _mm256_shuffle_ps::<0b11_01_10_00>(yz, xy);
-    let m2 = _mm256_shuffle_ps::<0b11_01_11_01>(zx, yz);
-    [
-        _mm256_permute2f128_ps::<0x20>(m0, m1),
-        _mm256_permute2f128_ps::<0x30>(m2, m0),
-        _mm256_permute2f128_ps::<0x31>(m1, m2),
-    ]
+    let x = _mm256_permutevar8x32_ps(x, _mm256_setr_epi32(0, 3, 6, 1, 4, 7, 2, 5));
+    let y = _mm256_permutevar8x32_ps(y, _mm256_setr_epi32(5, 0, 3, 6, 1, 4, 7, 2));
+    let z = _mm256_permutevar8x32_ps(z, _mm256_setr_epi32(2, 5, 0, 3, 6, 1, 4, 7));
+    [weave([x, y, z]), weave([z, x, y]), weave([y, z, x])]
 }
 
 /// Copies with AVX2. Used in loops that enable it.

@@ -57,7 +57,7 @@ impl<R: Real> Bsdf<R> for Conductor<R> {
     #[inline(always)]
     fn delta(&self, wo: Vec3<R>) -> Option<[Delta<R>; 2]> {
         let wi = vec3(-wo.x, -wo.y, wo.z);
-        let fresnel = self.eta.zip(self.k, |eta, k| fresnel::conductor(eta, k, wo.z)).named("fresnel");
+        let fresnel = fresnel::conductors(self.eta, self.k, wo.z).named("fresnel");
         Some([Delta { wi, weight: fresnel, probability: R::ONE }, Delta::NONE])
     }
 }

@@ -51,9 +51,9 @@ impl<R: Real> Bsdf<R> for CookTorrance<R> {
     fn eval(&self, wi: Vec3<R>, wo: Vec3<R>) -> Color<R> {
         let (h, cos_d) = facet::half(wi, wo);
         let d = ndf::beckmann(h, self.alpha, self.alpha).named("d");
-        let g = masking::v_groove(wi, wo, h).named("g");
+        let v = masking::v_groove_visibility_ratio(wi, wo, h).value().named("v"); // G / (4 cos_i cos_o)
         let f = fresnel::schlick(self.f0, cos_d);
-        f * (d * g / (R::lit(4.0) * wi.z * wo.z))
+        f * (d * v)
     }
 
     #[inline(always)]
@@ -66,6 +66,6 @@ impl<R: Real> Bsdf<R> for CookTorrance<R> {
     fn pdf(&self, wi: Vec3<R>, wo: Vec3<R>) -> R {
         let h = wi + wo;
         // heitz2014b: G1(wo) (wo.h) D / wo.z, times 1/(4 wo.h)
-        masking::v_groove_g1(wo, h) * ndf::beckmann(h, self.alpha, self.alpha) / (R::lit(4.0) * wo.z)
+        masking::v_groove_half_ratio(wo, h).value() * ndf::beckmann(h, self.alpha, self.alpha)
     }
 }

@@ -144,9 +144,9 @@ impl<R: Real> Bsdf<R> for Disney2012<R> {
         let matte = (self.base_color * self.subsurface.lerp(fd, ss) + sheen) * self.metallic.one_minus();
 
         let (alpha_x, alpha_y) = self.alphas();
-        let ds = ndf::ggx(h, alpha_x, alpha_y).named("ds");
-        let vs = masking::smith_ggx_visibility_separable(wi, wo, alpha_x, alpha_y).named("vs");
-        let specular = fresnel::schlick(self.f0(), cos_d) * (ds * vs);
+        let ds = ndf::ggx_ratio(h, alpha_x, alpha_y);
+        let vs = masking::smith_ggx_visibility_separable_ratio(wi, wo, alpha_x, alpha_y);
+        let specular = fresnel::schlick(self.f0(), cos_d) * (ds * vs).value().named("dv");
 
         let dr = ndf::gtr1(h, self.clearcoat_alpha()).named("dr");
         let fr = weight.lerp(R::lit(0.04), R::ONE).named("fr");
@@ -170,9 +170,9 @@ impl<R: Real> Bsdf<R> for Disney2012<R> {
     fn pdf(&self, wi: Vec3<R>, wo: Vec3<R>) -> R {
         let (alpha_x, alpha_y) = self.alphas();
         let h = wi + wo;
-        let specular = R::HALF * masking::smith_ggx_half(wo, alpha_x, alpha_y) * ndf::ggx(h, alpha_x, alpha_y);
+        let specular = masking::smith_ggx_half_ratio(wo, alpha_x, alpha_y) * ndf::ggx_ratio(h, alpha_x, alpha_y);
         let clearcoat = facet::reflected_pdf(ndf::gtr1(h, self.clearcoat_alpha()), h);
         let [to_matte, to_specular, to_clearcoat] = self.shares(wo);
-        to_matte * wi.z * R::FRAC_1_PI + to_specular * specular + to_clearcoat * clearcoat
+        to_matte * wi.z * R::FRAC_1_PI + to_specular * (R::HALF * specular.value()) + to_clearcoat * clearcoat
     }
 }

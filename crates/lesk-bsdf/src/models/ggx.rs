@@ -40,10 +40,10 @@ impl<R: Real> Bsdf<R> for Ggx<R> {
     #[inline(always)]
     fn eval(&self, wi: Vec3<R>, wo: Vec3<R>) -> Color<R> {
         let (h, cos_d) = facet::half(wi, wo);
-        let d = ndf::ggx(h, self.alpha_x, self.alpha_y).named("d"); // Eq. 33
-        let v = masking::smith_ggx_visibility(wi, wo, self.alpha_x, self.alpha_y).named("v"); // heitz2014 Eq. 99
+        let d = ndf::ggx_ratio(h, self.alpha_x, self.alpha_y); // Eq. 33
+        let v = masking::smith_ggx_visibility_ratio(wi, wo, self.alpha_x, self.alpha_y); // heitz2014 Eq. 99
         let f = fresnel::schlick(self.f0, cos_d); // schlick1994; the paper has the exact term
-        f * (d * v) // Eq. 20
+        f * (d * v).value().named("dv") // Eq. 20
     }
 
     #[inline(always)]
@@ -53,8 +53,8 @@ impl<R: Real> Bsdf<R> for Ggx<R> {
 
     #[inline(always)]
     fn pdf(&self, wi: Vec3<R>, wo: Vec3<R>) -> R {
-        let d = ndf::ggx(wi + wo, self.alpha_x, self.alpha_y);
+        let d = ndf::ggx_ratio(wi + wo, self.alpha_x, self.alpha_y);
         // G1(wo) (wo.h) D / wo.z (heitz2018 Eq. 3) times 1/(4 wo.h) (Eq. 14)
-        R::HALF * masking::smith_ggx_half(wo, self.alpha_x, self.alpha_y) * d
+        R::HALF * (masking::smith_ggx_half_ratio(wo, self.alpha_x, self.alpha_y) * d).value()
     }
 }

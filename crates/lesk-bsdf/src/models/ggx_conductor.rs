@@ -61,10 +61,10 @@ impl<R: Real> Bsdf<R> for GgxConductor<R> {
     #[inline(always)]
     fn eval(&self, wi: Vec3<R>, wo: Vec3<R>) -> Color<R> {
         let (h, cos_d) = facet::half(wi, wo);
-        let d = ndf::ggx(h, self.alpha_x, self.alpha_y).named("d"); // Eq. 33
-        let v = masking::smith_ggx_visibility(wi, wo, self.alpha_x, self.alpha_y).named("v"); // heitz2014 Eq. 99
-        let f = self.eta.zip(self.k, |eta, k| fresnel::conductor(eta, k, cos_d)).named("f");
-        f * (d * v) // Eq. 20
+        let d = ndf::ggx_ratio(h, self.alpha_x, self.alpha_y); // Eq. 33
+        let v = masking::smith_ggx_visibility_ratio(wi, wo, self.alpha_x, self.alpha_y); // heitz2014 Eq. 99
+        let f = fresnel::conductors(self.eta, self.k, cos_d).named("f");
+        f * (d * v).value().named("dv") // Eq. 20
     }
 
     #[inline(always)]
@@ -74,8 +74,8 @@ impl<R: Real> Bsdf<R> for GgxConductor<R> {
 
     #[inline(always)]
     fn pdf(&self, wi: Vec3<R>, wo: Vec3<R>) -> R {
-        let d = ndf::ggx(wi + wo, self.alpha_x, self.alpha_y);
+        let d = ndf::ggx_ratio(wi + wo, self.alpha_x, self.alpha_y);
         // G1(wo) (wo.h) D / wo.z (heitz2018 Eq. 3) times 1/(4 wo.h) (Eq. 14)
-        R::HALF * masking::smith_ggx_half(wo, self.alpha_x, self.alpha_y) * d
+        R::HALF * (masking::smith_ggx_half_ratio(wo, self.alpha_x, self.alpha_y) * d).value()
     }
 }

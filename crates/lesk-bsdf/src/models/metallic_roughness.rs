@@ -86,11 +86,11 @@ impl<R: Real> Bsdf<R> for MetallicRoughness<R> {
     fn eval(&self, wi: Vec3<R>, wo: Vec3<R>) -> Color<R> {
         let alpha = self.alpha();
         let (h, cos_d) = facet::half(wi, wo);
-        let d = ndf::ggx(h, alpha, alpha).named("d");
-        let v = masking::smith_ggx_visibility(wi, wo, alpha, alpha).named("v");
+        let d = ndf::ggx_ratio(h, alpha, alpha);
+        let v = masking::smith_ggx_visibility_ratio(wi, wo, alpha, alpha);
         let f = fresnel::schlick(self.f0(), cos_d).named("f");
         let diffuse = self.base_color * (self.metallic.one_minus() * R::FRAC_1_PI);
-        f.one_minus() * diffuse + f * (d * v)
+        f.one_minus() * diffuse + f * (d * v).value().named("dv")
     }
 
     #[inline(always)]
@@ -104,7 +104,7 @@ impl<R: Real> Bsdf<R> for MetallicRoughness<R> {
     #[inline(always)]
     fn pdf(&self, wi: Vec3<R>, wo: Vec3<R>) -> R {
         let alpha = self.alpha();
-        let specular = R::HALF * masking::smith_ggx_half(wo, alpha, alpha) * ndf::ggx(wi + wo, alpha, alpha);
-        lobe::mixture(self.diffuse_share(wo), wi.z * R::FRAC_1_PI, specular)
+        let specular = masking::smith_ggx_half_ratio(wo, alpha, alpha) * ndf::ggx_ratio(wi + wo, alpha, alpha);
+        lobe::mixture(self.diffuse_share(wo), wi.z * R::FRAC_1_PI, R::HALF * specular.value())
     }
 }

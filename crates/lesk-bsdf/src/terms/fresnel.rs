@@ -1,5 +1,6 @@
 //! Reflectance of a smooth boundary.
 
+use super::ratio::{self, Ratio};
 use lesk_math::{Color, Real};
 
 /// Schlick's approximation (schlick1994): F0 + (1 - F0)(1 - cos)^5.
@@ -55,6 +56,18 @@ pub fn dielectric_between<R: Real>(eta: R, cos_theta: R, g2: R) -> R {
 /// In `f32` it is good to 1e-7 absolutely, not relatively: where there is hardly a boundary (eta near 1, k near 0).
 #[inline(always)]
 pub fn conductor<R: Real>(eta: R, k: R, cos_theta: R) -> R {
+    conductor_ratio(eta, k, cos_theta).value()
+}
+
+/// [`conductor`] of each channel.
+#[inline(always)]
+pub(crate) fn conductors<R: Real>(eta: Color<R>, k: Color<R>, cos_theta: R) -> Color<R> {
+    // a denominator is at least cos^2 theta where it is smallest (eta = 1, k = 0), and below 1e6
+    ratio::values(|c| conductor_ratio(eta.0[c], k.0[c], cos_theta))
+}
+
+#[inline(always)]
+fn conductor_ratio<R: Real>(eta: R, k: R, cos_theta: R) -> Ratio<R> {
     let c2 = cos_theta * cos_theta;
     let s2 = c2.one_minus();
     let (eta2, k2) = (eta * eta, k * k);
@@ -66,5 +79,5 @@ pub fn conductor<R: Real>(eta: R, k: R, cos_theta: R) -> R {
     let t3 = c2.fma(a2b2, s2 * s2);
     let t4 = t2 * s2;
     // (Rs + Rp)/2 with Rp = Rs (t3 - t4)/(t3 + t4): (t1-t2)/(t1+t2) * t3/(t3+t4)
-    (t1 - t2) * t3 / ((t1 + t2) * (t3 + t4))
+    Ratio { over: (t1 - t2) * t3, under: (t1 + t2) * (t3 + t4) }
 }

@@ -27,10 +27,7 @@ pub fn cos_power<R: Real>(cos: R, n: R) -> R {
 #[inline(always)]
 pub(crate) fn polar_cos_power<R: Real>(h: Vec3<R>, n: R) -> R {
     let tan2 = (h.x.fma(h.x, h.y * h.y) / (h.z * h.z)).named("tan2");
-    let sec2 = (R::ONE + tan2).named("sec2");
-    // ln(1 + tan2): the second term is what rounding took from the sum
-    let ln_sec2 = sec2.ln() + (tan2 - (sec2 - R::ONE)) / sec2;
-    (-R::HALF * n * ln_sec2).exp()
+    (-R::HALF * n * tan2.log2_1p()).exp2()
 }
 
 /// A direction with density (n + 1)/(2 pi) cos^n around the mirror image of `wo` (lafortune1994).

@@ -6,3 +6,4 @@ pub mod fresnel;
 pub mod lobe;
 pub mod masking;
 pub mod ndf;
+pub(crate) mod ratio;

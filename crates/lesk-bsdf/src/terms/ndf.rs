@@ -3,16 +3,23 @@
 //! D depends on the direction of `h` alone: `h` may have any length, and wi + wo needs no normalisation. The angle
 //! enters through the components across the normal, never as 1 - cos^2, which cancels at the peak of a narrow lobe.
 
+use super::ratio::Ratio;
 use lesk_math::{Real, Vec3, vec3};
 
 /// Anisotropic GGX (walter2007 Eq. 33; anisotropic form burley2012, heitz2014 Eq. 85):
 /// 1 / (pi alpha_x alpha_y (hx^2/alpha_x^2 + hy^2/alpha_y^2 + hz^2)^2).
 #[inline(always)]
 pub fn ggx<R: Real>(h: Vec3<R>, alpha_x: R, alpha_y: R) -> R {
+    ggx_ratio(h, alpha_x, alpha_y).value()
+}
+
+/// [`ggx`], not divided yet.
+#[inline(always)]
+pub(crate) fn ggx_ratio<R: Real>(h: Vec3<R>, alpha_x: R, alpha_y: R) -> Ratio<R> {
     // reciprocals of parameters: divisions that leave a loop over directions
     let (x, y) = (h.x * alpha_x.recip(), h.y * alpha_y.recip());
-    let r = h.length_squared() / x.fma(x, y.fma(y, h.z * h.z));
-    r * r * (R::PI * alpha_x * alpha_y).recip()
+    let norm = (R::PI * alpha_x * alpha_y).recip();
+    Ratio { over: h.length_squared().sqr() * norm, under: x.fma(x, y.fma(y, h.z * h.z)).sqr() }
 }
 
 /// A facet normal visible from `wo` (z > 0), with density G1(wo) max(0, wo.h) D(h) / wo.z
