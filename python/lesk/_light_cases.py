@@ -223,8 +223,9 @@ def _surfaces() -> Iterator[Case]:
         "cylinder", radius="1 mm", height="2 m", capped=False, light='{ luminance = "100 kcd/m2" }'
     )
     side = math.sqrt(0.5)
-    for what, x, y in (("along x", 1.0, 0.0), ("diagonally", side, side)):
-        wire.point(f"radius 1 mm, 3 m off {what}", exact.line(200, 2, 3), (3 * x, 3 * y, 0), (-x, -y, 0))
+    for what, east, north in (("along x", 1.0, 0.0), ("diagonally", side, side)):
+        at, normal = (3 * east, 3 * north, 0), (-east, -north, 0)
+        wire.point(f"radius 1 mm, 3 m off {what}", exact.line(200, 2, 3), at, normal)
     yield wire
     floor = Case("luminance").light("point", position=[0, 0, 3], flux="10000 lm")
     floor.thing("rectangle", width="20 m", height="20 m", material=floor.diffuse(0.5))
