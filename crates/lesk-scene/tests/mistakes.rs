@@ -48,7 +48,7 @@ error: light: `60 W` counts watts, which need a named spectrum
   --> scene:8:8
 8 | flux = "60 W"
   |        ^^^^^^
-hint: add `spectrum`: `E`, `A`, `D50`, `D65`, `FL2`, `LED-B3` or another illuminant of the CIE, or `blackbody 2700 K`"#,
+hint: add `spectrum`: `E`, `A`, `D50`, `D65`, `FL2`, `LED-B3` or another illuminant of the CIE, `AM1.5G`, or `blackbody 2700 K`"#,
     );
 }
 
