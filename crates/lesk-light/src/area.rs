@@ -1,5 +1,6 @@
 //! A surface that shines.
 
+use crate::body::Body;
 use crate::bounds::LightBounds;
 use crate::emission_map::{Carrier, EmissionMap, MeshMap, ShapeMap};
 use crate::error::{LightError, check_color};
@@ -26,7 +27,8 @@ pub struct Area {
 
 #[derive(Clone, Debug)]
 enum Form {
-    Whole(Box<AreaSampler>),
+    /// With the body of one that only its outside can see.
+    Whole(Box<(AreaSampler, Option<Body>)>),
     Parts(Parts),
 }
 
@@ -46,7 +48,10 @@ impl Area {
         let area = sampler.area();
         let form = match geometry.mesh() {
             Some(mesh) => Form::Parts(Parts::rectangles(mesh, world_from_local)),
-            None => Form::Whole(Box::new(sampler)),
+            None => {
+                let body = if two_sided { None } else { Body::of_geometry(geometry, world_from_local) };
+                Form::Whole(Box::new((sampler, body)))
+            }
         };
         Ok(Area { luminance, two_sided, area, form, map: None })
     }
@@ -80,7 +85,7 @@ impl Area {
         let area = sampler.area();
         let form = match geometry {
             Geometry::Mesh(mesh) => Form::Parts(Parts::triangles(mesh, place)),
-            _ => Form::Whole(Box::new(sampler)),
+            _ => Form::Whole(Box::new((sampler, None))),
         };
         Ok(Area { luminance, two_sided, area, form, map: Some(Box::new(map)) })
     }
@@ -185,8 +190,11 @@ impl Area {
 
     pub(crate) fn sample(&self, part: u32, at: &Receiver, u: [f32; 2]) -> Option<LightSample> {
         let sample = match (&self.form, self.map.as_deref().map(EmissionMap::carrier)) {
-            (Form::Whole(sampler), Some(Carrier::Shape(map))) => sample_shape(sampler, map, at, u),
-            (Form::Whole(sampler), _) => sampler.sample_from(at.p, u),
+            (Form::Whole(whole), Some(Carrier::Shape(map))) => sample_shape(&whole.0, map, at, u),
+            (Form::Whole(whole), _) => match &whole.1 {
+                Some(body) => sample_body(body, at, u),
+                None => whole.0.sample_from(at.p, u),
+            },
             (Form::Parts(parts), Some(Carrier::Mesh(map))) => {
                 let (triangle, prim) = parts.triangle(part)?;
                 sample_triangle(triangle, map, prim, at, u)
@@ -213,8 +221,11 @@ impl Area {
     /// The density of [`sample`](Self::sample) for the point that a ray from the receiver hit, 1/sr.
     pub(crate) fn pdf(&self, at: &Receiver, hit: &Surface) -> f32 {
         match (&self.form, self.map.as_deref().map(EmissionMap::carrier)) {
-            (Form::Whole(sampler), Some(Carrier::Shape(map))) => shape_pdf(sampler, map, at, hit.prim, hit.p, hit.ng),
-            (Form::Whole(sampler), _) => sampler.pdf_from(at.p, hit.prim, hit.p, hit.ng),
+            (Form::Whole(whole), Some(Carrier::Shape(map))) => shape_pdf(&whole.0, map, at, hit.prim, hit.p, hit.ng),
+            (Form::Whole(whole), _) => match &whole.1 {
+                Some(body) => per_steradian(body.pdf(at.p, hit.p, hit.ng), at.p, hit.p, hit.ng).unwrap_or(0.0),
+                None => whole.0.pdf_from(at.p, hit.prim, hit.p, hit.ng),
+            },
             (Form::Parts(_), Some(Carrier::Mesh(map))) => {
                 self.triangle(hit.prim).map_or(0.0, |triangle| triangle_pdf(triangle, map, at, hit.prim, hit.p))
             }
@@ -225,7 +236,8 @@ impl Area {
     /// Bounds of every part, in order.
     pub(crate) fn bounds(&self) -> Vec<LightBounds> {
         match &self.form {
-            Form::Whole(sampler) => {
+            Form::Whole(whole) => {
+                let sampler = &whole.0;
                 let (axis, spread, share) = match sampler.flat_normal() {
                     Some(n) => (n, 0.0, 1.0),
                     // a convex body shows a quarter of its surface on average
@@ -243,6 +255,13 @@ impl Area {
             }
         }
     }
+}
+
+/// A point of a body that the receiver can see.
+fn sample_body(body: &Body, at: &Receiver, u: [f32; 2]) -> Option<SurfaceSample> {
+    let mut sample = body.sample(at.p, u)?;
+    sample.pdf = per_steradian(sample.pdf, at.p, sample.p, sample.n)?;
+    Some(sample)
 }
 
 /// A point of a shape with a picture: half of the draws know where the receiver is, half where the picture is bright.

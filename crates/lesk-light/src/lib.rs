@@ -32,6 +32,7 @@
 //! It traces no ray and knows no material; there is no light through media.
 
 mod area;
+mod body;
 mod bounds;
 mod cie_sky;
 mod directional;
@@ -44,7 +45,6 @@ mod hosek_sky;
 mod light;
 mod lights;
 mod luminaire;
-mod opening;
 mod parts;
 pub mod photometry;
 mod point;

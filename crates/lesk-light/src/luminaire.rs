@@ -1,11 +1,11 @@
 //! A luminaire from a photometric file.
 
+use crate::body::Body;
 use crate::bounds::LightBounds;
 use crate::error::{LightError, check_color, check_direction};
-use crate::opening::View;
 use crate::photometry::{Counted, Opening, OpeningShape, Outline, Photometry};
 use crate::sample::{LightSample, Receiver, Target, per_steradian, toward};
-use lesk_geometry::{AreaSampler, Geometry, Surface, SurfaceSample, Transform};
+use lesk_geometry::{AreaSampler, Geometry, Surface, Transform};
 use lesk_math::{Color, Vec3, vec3};
 use std::f64::consts::{FRAC_PI_2, PI};
 use std::sync::Arc;
@@ -40,10 +40,8 @@ struct Placed {
     geometry: Geometry,
     transform: Transform,
     sampler: AreaSampler,
-    /// Of the opening, which is the photometric centre.
-    center: Vec3<f64>,
-    /// Flat openings shine to both sides.
-    flat: bool,
+    /// `None` of flat openings, which shine to both sides.
+    body: Option<Body>,
     /// Smallest projected area that counts, m².
     least: f64,
 }
@@ -117,15 +115,8 @@ impl Luminaire {
 
     /// The unit direction `w` of the world in the frame of the luminaire.
     fn local(&self, w: Vec3<f32>) -> Vec3<f64> {
-        self.frame(w.map(f64::from))
-    }
-
-    fn frame(&self, w: Vec3<f64>) -> Vec3<f64> {
+        let w = w.map(f64::from);
         vec3(w.dot(self.axes[0]), w.dot(self.axes[1]), w.dot(self.axes[2]))
-    }
-
-    fn world(&self, w: Vec3<f64>) -> Vec3<f64> {
-        self.axes[0] * w.x + self.axes[1] * w.y + self.axes[2] * w.z
     }
 
     /// Luminous intensity in cd in the unit direction `w` away from the luminaire.
@@ -136,7 +127,7 @@ impl Luminaire {
     /// Luminance in cd/m² that leaves a point of the opening with the outer normal `ng` in the unit direction `w`.
     pub fn radiance(&self, ng: Vec3<f32>, w: Vec3<f32>) -> Color<f32> {
         let Some(opening) = &self.opening else { return Color::BLACK };
-        if !opening.flat && ng.dot(w) <= 0.0 {
+        if opening.body.is_some() && ng.dot(w) <= 0.0 {
             return Color::BLACK;
         }
         let local = self.local(w);
@@ -152,7 +143,10 @@ impl Luminaire {
     pub(crate) fn sample(&self, at: &Receiver, u: [f32; 2]) -> Option<LightSample> {
         let Some(opening) = &self.opening else { return self.sample_point(at) };
         // over the area, not the solid angle: near its edge a flat opening is bright and thin, and only the product counts
-        let mut sample = if opening.flat { opening.sampler.sample(u) } else { self.sample_visible(opening, at, u)? };
+        let mut sample = match &opening.body {
+            Some(body) => body.sample(at.p, u)?,
+            None => opening.sampler.sample(u),
+        };
         sample.pdf = per_steradian(sample.pdf, at.p, sample.p, sample.n)?;
         let (wi, distance) = toward(at.p, sample.p)?;
         let value = self.radiance(sample.n, -wi);
@@ -165,22 +159,6 @@ impl Luminaire {
             light: 0,
             target: Target::Surface(sample),
         })
-    }
-
-    /// A point of a body that the receiver can see, with its density over area.
-    fn sample_visible(&self, opening: &Placed, at: &Receiver, u: [f32; 2]) -> Option<SurfaceSample> {
-        let spot = self.view(opening, at)?.sample(u.map(f64::from))?;
-        let p = self.world(spot.p) + opening.center;
-        let (p, n) = (p.map(|x| x as f32), self.world(spot.n).map(|x| x as f32));
-        // triangles round as far as their corners are from the origin
-        let size: f64 = self.photometry.opening.size.iter().sum();
-        let reach = p.map(|x| 3.0 * (x.abs() + size as f32));
-        let lift = Surface::at(reach, n).lift;
-        Some(SurfaceSample { p, n, uv: [0.0; 2], prim: 0, pdf: spot.density as f32, lift })
-    }
-
-    fn view(&self, opening: &Placed, at: &Receiver) -> Option<View> {
-        View::new(&self.photometry.opening, self.frame(at.p.map(f64::from) - opening.center))
     }
 
     fn sample_point(&self, at: &Receiver) -> Option<LightSample> {
@@ -200,11 +178,9 @@ impl Luminaire {
     /// The density of [`sample`](Self::sample) for the point of the opening that a ray from the receiver hit, 1/sr.
     pub(crate) fn pdf(&self, at: &Receiver, hit: &Surface) -> f32 {
         let Some(opening) = &self.opening else { return 0.0 };
-        let density = if opening.flat {
-            opening.sampler.pdf(hit.prim, hit.p)
-        } else {
-            let (p, n) = (hit.p.map(f64::from) - opening.center, hit.ng.map(f64::from));
-            self.view(opening, at).map_or(0.0, |view| view.density(self.frame(p), self.frame(n)) as f32)
+        let density = match &opening.body {
+            Some(body) => body.pdf(at.p, hit.p, hit.ng),
+            None => opening.sampler.pdf(hit.prim, hit.p),
         };
         per_steradian(density, at.p, hit.p, hit.ng).unwrap_or(0.0)
     }
@@ -264,7 +240,7 @@ fn placed(opening: &Opening, place: &Transform) -> Result<Option<Placed>, LightE
     let transform = *place * own;
     let sampler = AreaSampler::new(&geometry, &transform)?;
     let largest = AXES.map(|axis| opening.projected_area(axis)).into_iter().sum::<f64>();
-    let flat = matches!(opening.shape, OpeningShape::Rectangle | OpeningShape::Ellipse | OpeningShape::Upright(..));
-    let center = place.point_f64(Vec3::ZERO);
-    Ok(Some(Placed { geometry, transform, sampler, center, flat, least: LEAST_SEEN * largest }))
+    let axes = AXES.map(|axis| place.vector_f64(axis));
+    let body = Body::of_opening(opening, axes, place.point_f64(Vec3::ZERO));
+    Ok(Some(Placed { geometry, transform, sampler, body, least: LEAST_SEEN * largest }))
 }

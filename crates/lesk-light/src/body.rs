@@ -1,27 +1,105 @@
-//! Points on the part of a luminous opening that a receiver can see.
+//! Points on the part of a luminous body that a receiver can see.
 
 use crate::photometry::{Opening, OpeningShape};
+use lesk_geometry::{Geometry, Surface, SurfaceSample, Transform};
 use lesk_math::{Frame, Vec3, vec3};
 use std::f64::consts::{PI, TAU};
 
-/// A box, cylinder or ellipsoid around the origin of the luminaire's frame as a receiver sees it.
-///
-/// One of its visible parts is chosen by projected area over the square of the distance, and a point of it by projected
-/// area (curved parts) or evenly (flat ones).
-pub(crate) struct View {
+/// A box, cylinder, open tube or ellipsoid in the world, which shines outward only.
+#[derive(Clone, Debug)]
+pub(crate) struct Body {
     form: Form,
-    /// Half extents and receiver, metres; of a cylinder with its axis last.
+    /// Half extents along the axes, metres; the axis of a cylinder is the last one.
     half: [f64; 3],
-    from: Vec3<f64>,
-    axis: usize,
-    parts: [Option<(Part, f64)>; 3],
+    /// Unit, perpendicular to one another.
+    axes: [Vec3<f64>; 3],
+    center: Vec3<f64>,
 }
 
-#[derive(Clone, Copy, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 enum Form {
     Box,
     Cylinder,
+    Tube,
     Ellipsoid,
+}
+
+impl Body {
+    /// An opening around `center` whose extents lie along the axes; `None` of flat ones, which both sides see whole.
+    pub fn of_opening(opening: &Opening, axes: [Vec3<f64>; 3], center: Vec3<f64>) -> Option<Body> {
+        let (form, last) = match opening.shape {
+            OpeningShape::Box => (Form::Box, 2),
+            OpeningShape::Cylinder(axis) => (Form::Cylinder, axis.min(2) as usize),
+            OpeningShape::Ellipsoid => (Form::Ellipsoid, 2),
+            OpeningShape::Point | OpeningShape::Rectangle | OpeningShape::Ellipse | OpeningShape::Upright(..) => {
+                return None;
+            }
+        };
+        let order = [1, 2, 3].map(|k| (last + k) % 3);
+        Some(Body { form, half: order.map(|k| 0.5 * opening.size[k]), axes: order.map(|k| axes[k]), center })
+    }
+
+    /// A cylinder or stretched sphere; `None` of other geometries and where the transform leaves its axes oblique.
+    pub fn of_geometry(geometry: &Geometry, place: &Transform) -> Option<Body> {
+        let columns = [vec3(1.0, 0.0, 0.0), vec3(0.0, 1.0, 0.0), Vec3::Z].map(|e| place.vector_f64(e));
+        let lengths = columns.map(|c| c.length());
+        let oblique = |i: usize, j: usize| columns[i].dot(columns[j]).abs() > 1e-9 * lengths[i] * lengths[j];
+        if oblique(0, 1) || oblique(1, 2) || oblique(2, 0) {
+            return None;
+        }
+        let [x, y, z] = lengths;
+        let (form, half, center) = match geometry {
+            // a round sphere is drawn over its solid angle
+            Geometry::Sphere if place.uniform_scale().is_none() => (Form::Ellipsoid, lengths, Vec3::ZERO),
+            // the cylinder stands on z = 0 with height 1
+            Geometry::Cylinder { capped: true } => (Form::Cylinder, [x, y, 0.5 * z], vec3(0.0, 0.0, 0.5)),
+            Geometry::Cylinder { capped: false } => (Form::Tube, [x, y, 0.5 * z], vec3(0.0, 0.0, 0.5)),
+            _ => return None,
+        };
+        let axes = [0, 1, 2].map(|k| columns[k] / lengths[k]);
+        Some(Body { form, half, axes, center: place.point_f64(center) })
+    }
+
+    /// A point for the receiver at `x`; its `pdf` is per square metre. `None` where nothing of it is seen.
+    pub fn sample(&self, x: Vec3<f32>, u: [f32; 2]) -> Option<SurfaceSample> {
+        let spot = self.view(x)?.sample(u.map(f64::from))?;
+        let world = |v: Vec3<f64>| self.axes[0] * v.x + self.axes[1] * v.y + self.axes[2] * v.z;
+        let (p, n) = ((world(spot.p) + self.center).map(|x| x as f32), world(spot.n).map(|x| x as f32));
+        // a box is triangles, which round as far as their corners are from the origin
+        let size = if self.form == Form::Box { self.half.iter().sum::<f64>() as f32 } else { 0.0 };
+        let reach = if self.form == Form::Box { p.map(|x| 3.0 * (x.abs() + 2.0 * size)) } else { p };
+        let lift = Surface::at(reach, n).lift;
+        Some(SurfaceSample { p, n, uv: [0.0; 2], prim: 0, pdf: spot.density as f32, lift })
+    }
+
+    /// The density of [`sample`](Self::sample), 1/m², at a point with its outer normal; 0 on parts that are not seen.
+    pub fn pdf(&self, x: Vec3<f32>, p: Vec3<f32>, n: Vec3<f32>) -> f32 {
+        let (p, n) = (self.frame(p.map(f64::from) - self.center), self.frame(n.map(f64::from)));
+        self.view(x).map_or(0.0, |view| view.density(p, n) as f32)
+    }
+
+    fn frame(&self, v: Vec3<f64>) -> Vec3<f64> {
+        vec3(v.dot(self.axes[0]), v.dot(self.axes[1]), v.dot(self.axes[2]))
+    }
+
+    /// `None` from inside.
+    fn view(&self, x: Vec3<f32>) -> Option<View> {
+        let from = self.frame(x.map(f64::from) - self.center);
+        let mut view = View { form: self.form, half: self.half, from, parts: [None; 3] };
+        view.parts = view.visible();
+        view.parts.iter().any(Option::is_some).then_some(view)
+    }
+}
+
+/// A body around the origin as a receiver sees it.
+///
+/// One of its visible parts is chosen by projected area over the square of the distance, and a point of it by projected
+/// area (curved parts) or evenly (flat ones).
+struct View {
+    form: Form,
+    half: [f64; 3],
+    from: Vec3<f64>,
+    parts: [Option<(Part, f64)>; 3],
 }
 
 /// A part of the surface.
@@ -32,38 +110,21 @@ enum Part {
     Curved,
 }
 
-/// A point of an opening, metres.
-pub(crate) struct Spot {
-    pub p: Vec3<f64>,
+/// A point of a body, metres.
+struct Spot {
+    p: Vec3<f64>,
     /// Unit, to the outside.
-    pub n: Vec3<f64>,
+    n: Vec3<f64>,
     /// Density, 1/m².
-    pub density: f64,
+    density: f64,
 }
 
 impl View {
-    /// The view from a point in the frame of the luminaire; `None` of flat openings, which both sides see whole, and from
-    /// inside.
-    pub fn new(opening: &Opening, from: Vec3<f64>) -> Option<View> {
-        let (form, axis) = match opening.shape {
-            OpeningShape::Box => (Form::Box, 2),
-            OpeningShape::Cylinder(axis) => (Form::Cylinder, axis.min(2) as usize),
-            OpeningShape::Ellipsoid => (Form::Ellipsoid, 2),
-            OpeningShape::Point | OpeningShape::Rectangle | OpeningShape::Ellipse | OpeningShape::Upright(..) => {
-                return None;
-            }
-        };
-        let half = turned(axis, opening.size.map(|x| 0.5 * x));
-        let from = Vec3::from(turned(axis, from.to_array()));
-        let mut view = View { form, half, from, axis, parts: [None; 3] };
-        view.parts = view.visible();
-        view.parts.iter().any(Option::is_some).then_some(view)
-    }
-
     fn visible(&self) -> [Option<(Part, f64)>; 3] {
         match self.form {
             Form::Box => [0, 1, 2].map(|k| self.flat(k)),
             Form::Cylinder => [self.flat(2), self.side(), None],
+            Form::Tube => [None, self.side(), None],
             Form::Ellipsoid => [(self.scaled().length() > 1.0).then_some((Part::Curved, 1.0)), None, None],
         }
     }
@@ -107,7 +168,7 @@ impl View {
     }
 
     /// A visible point for `u` in the unit square.
-    pub fn sample(&self, u: [f64; 2]) -> Option<Spot> {
+    fn sample(&self, u: [f64; 2]) -> Option<Spot> {
         let mut left = u[0] * self.sum();
         let mut chosen = None;
         for &(part, weight) in self.parts.iter().flatten() {
@@ -120,18 +181,16 @@ impl View {
         let (part, stretched) = chosen?;
         let p = match part {
             Part::Flat(axis, positive) => self.on_flat(axis, positive, [stretched, u[1]]),
-            Part::Curved if self.form == Form::Cylinder => self.on_side([stretched, u[1]]),
+            Part::Curved if self.form != Form::Ellipsoid => self.on_side([stretched, u[1]]),
             Part::Curved => self.on_ellipsoid([stretched, u[1]]),
         };
         let n = self.normal(part, p);
         let density = self.density_on(part, p);
-        let back = |v: Vec3<f64>| Vec3::from(turned_back(self.axis, v.to_array()));
-        Some(Spot { p: back(p), n: back(n), density })
+        Some(Spot { p, n, density })
     }
 
-    /// The density of [`sample`](Self::sample), 1/m², at a point with its outer normal; 0 where the receiver cannot see it.
-    pub fn density(&self, p: Vec3<f64>, n: Vec3<f64>) -> f64 {
-        let (p, n) = (turned(self.axis, p.to_array()), turned(self.axis, n.to_array()));
+    fn density(&self, p: Vec3<f64>, n: Vec3<f64>) -> f64 {
+        let n = n.to_array();
         let flat = |k: usize| Part::Flat(k, n[k] > 0.0);
         let part = match self.form {
             Form::Box if n[0].abs() > n[1].abs().max(n[2].abs()) => flat(0),
@@ -139,20 +198,16 @@ impl View {
             Form::Box => flat(2),
             // the normal of the side has no part along the axis
             Form::Cylinder if n[2].abs() > 0.5 => flat(2),
-            Form::Cylinder | Form::Ellipsoid => Part::Curved,
+            Form::Cylinder | Form::Tube | Form::Ellipsoid => Part::Curved,
         };
-        if self.parts.iter().flatten().any(|(known, _)| *known == part) {
-            self.density_on(part, Vec3::from(p))
-        } else {
-            0.0
-        }
+        if self.parts.iter().flatten().any(|(known, _)| *known == part) { self.density_on(part, p) } else { 0.0 }
     }
 
     fn density_on(&self, part: Part, p: Vec3<f64>) -> f64 {
         let weight: f64 = self.parts.iter().flatten().filter(|(known, _)| *known == part).map(|(_, w)| w).sum();
         let within = match part {
             Part::Flat(axis, _) => 1.0 / self.flat_area(axis),
-            Part::Curved if self.form == Form::Cylinder => self.density_on_side(p),
+            Part::Curved if self.form != Form::Ellipsoid => self.density_on_side(p),
             Part::Curved => self.density_on_ellipsoid(p),
         };
         weight / self.sum() * within
@@ -225,19 +280,8 @@ impl View {
                 n[axis] = if positive { 1.0 } else { -1.0 };
                 Vec3::from(n)
             }
-            Part::Curved if self.form == Form::Cylinder => vec3(p.x / (a * a), p.y / (b * b), 0.0).normalize(),
+            Part::Curved if self.form != Form::Ellipsoid => vec3(p.x / (a * a), p.y / (b * b), 0.0).normalize(),
             Part::Curved => vec3(p.x / (a * a), p.y / (b * b), p.z / (c * c)).normalize(),
         }
     }
-}
-
-/// Coordinates in turns, so that those of `axis` come last.
-fn turned(axis: usize, v: [f64; 3]) -> [f64; 3] {
-    [1, 2, 3].map(|k| v[(axis + k) % 3])
-}
-
-fn turned_back(axis: usize, v: [f64; 3]) -> [f64; 3] {
-    let mut out = [0.0; 3];
-    (0..3).for_each(|k| out[(axis + 1 + k) % 3] = v[k]);
-    out
 }
