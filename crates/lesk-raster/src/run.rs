@@ -61,6 +61,7 @@ fn fill(rows: &mut Rows3, i: usize, value: [f32; 3]) {
 #[inline(always)]
 pub(crate) fn body(face: &Face, place: Place, spots: &[Spot], points: &mut Points) {
     let [a, b, c] = &face.corners;
+    let [uv_a, uv_b, uv_c] = [a.uv, b.uv, c.uv];
     let p = [ways(a.p.x, b.p.x, c.p.x), ways(a.p.y, b.p.y, c.p.y), ways(a.p.z, b.p.z, c.p.z)];
     let n = [ways(a.n.x, b.n.x, c.n.x), ways(a.n.y, b.n.y, c.n.y), ways(a.n.z, b.n.z, c.n.z)];
     for spots in spots.chunks(LANES) {
@@ -80,7 +81,7 @@ pub(crate) fn body(face: &Face, place: Place, spots: &[Spot], points: &mut Point
         fill(&mut points.ng, i, face.normal);
         if face.textured {
             for c in 0..2 {
-                mix(ways(a.uv[c], b.uv[c], face.corners[2].uv[c]), &u, &v, eight(&mut points.uv[c], i));
+                mix(ways(uv_a[c], uv_b[c], uv_c[c]), &u, &v, eight(&mut points.uv[c], i));
             }
         }
         if let Some(tangent) = face.tangent {

@@ -107,6 +107,30 @@ fn a_bumpy_map_on_a_curved_mesh_equals_the_path_tracer() {
 }
 
 #[test]
+fn a_texture_lies_where_its_coordinates_say() {
+    // red is u and green is v, whose rows go up; a square of 3 m has u = x/3 + 1/2
+    let folder = tempfile::tempdir().unwrap();
+    map(folder.path(), |u, down| [2.0 * u - 1.0, 1.0 - 2.0 * down, 0.0]);
+    let model = "model = \"lambert\"\nreflectance = { file = \"n.exr\", role = \"data\" }";
+    let sun = "[[lights]]\ntype = \"directional\"\ndirection = [0, 0, -1]\nilluminance = \"100 lx\"\n";
+    let scene = scene(folder.path(), [0.0, -0.1, 4.0], model, SQUARE, sun);
+    for interpolation in [Interpolation::Barycentric, Interpolation::Bilinear] {
+        let (frame, _) = draw(&scene, &Settings { interpolation, ..Settings::default() });
+        for (x, y) in [(60, 60), (80, 35), (31, 77), (95, 90), (25, 22)] {
+            let ray = scene.camera.ray([x as f32 + 0.5, y as f32 + 0.5], [0.5; 2]);
+            let hit = scene.world.surface(&ray, &scene.world.intersect(&ray).unwrap());
+            let at = hit.p.to_array().map(|p| f64::from(p) / 3.0 + 0.5);
+            for c in [0, 1] {
+                let found = f64::from(frame.rgb[3 * (y * SIZE + x) as usize + c]);
+                // EXR of half floats: 5e-4 of the codes
+                let expected = at[c] * 100.0 / PI;
+                assert!((found / expected - 1.0).abs() < 2e-3, "{interpolation:?} {x} {y}: {found} {expected}");
+            }
+        }
+    }
+}
+
+#[test]
 fn tangents_of_a_file_count_in_both_engines() {
     // two triangles with u along +x, whose file says that normal maps go along +y
     let folder = tempfile::tempdir().unwrap();
