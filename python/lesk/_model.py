@@ -14,6 +14,9 @@ from lesk._arrays import Array, leading_shape, numbers, require_directions, resu
 from lesk._outputs import Output, is_planar, output
 from lesk.errors import ParameterError, nearest, quoted
 
+# now, or the first call would wait for it
+_lesk.find_numpy()
+
 _ALBEDO_BLOCK = 1 << 20
 """Draws at a time when an albedo is estimated: bounds the memory."""
 

@@ -24,6 +24,8 @@ use pyo3::prelude::*;
 #[pymodule]
 mod _lesk {
     #[pymodule_export]
+    use crate::arrays::find_numpy;
+    #[pymodule_export]
     use crate::checks::{check_html, check_json};
     #[pymodule_export]
     use crate::draws::{draw, sobol};
