@@ -9,6 +9,7 @@ use crate::model::Domain;
 use crate::params::{Params, flat_len};
 use crate::target::Target;
 use lesk_math::{CHANNELS, Isa, Lane, Real, Vec3, vec3};
+use std::borrow::Borrow;
 
 pub(crate) mod group;
 #[cfg(target_arch = "x86_64")]
@@ -102,11 +103,32 @@ impl Kernels {
 }
 
 /// The body that a loop runs for one direction: writes element `i` of each row.
-pub(crate) trait Body<const FMA: bool, B> {
+pub(crate) trait Body<const FMA: bool, B>: Sized {
     const OUTPUTS: usize;
     /// Whether the first input is a direction, not numbers in [0, 1).
     const FIRST_IS_DIRECTION: bool;
     fn run(domain: Domain, model: &B, first: Vec3<Lane<FMA>>, second: Vec3<Lane<FMA>>, i: usize, out: &mut [Group]);
+
+    /// The loop over a group; `model` gives the model of a direction, and `odd` counts inputs that are out of range. It is a
+    /// function of its own because the compiler then takes its word that what is written lies in nothing that is read.
+    #[inline(always)]
+    fn run_group<M: Borrow<B>>(
+        domain: Domain,
+        model: impl Fn(usize) -> M,
+        [ax, ay, az]: [&[f32]; 3],
+        [bx, by, bz]: [&[f32]; 3],
+        odd: &mut [u32; GROUP],
+        out: &mut [Group],
+    ) {
+        let n = ax.len().min(GROUP);
+        let [ax, ay, az, bx, by, bz] = [&ax[..n], &ay[..n], &az[..n], &bx[..n], &by[..n], &bz[..n]];
+        for i in 0..n {
+            let (a, b) = (vec3(Lane(ax[i]), Lane(ay[i]), Lane(az[i])), vec3(Lane(bx[i]), Lane(by[i]), Lane(bz[i])));
+            odd[i] +=
+                u32::from(if Self::FIRST_IS_DIRECTION { is_odd(a) } else { is_outside(a) }) + u32::from(is_odd(b));
+            Self::run(domain, model(i).borrow(), a, b, i, out);
+        }
+    }
 }
 
 pub(crate) struct Eval;
@@ -189,33 +211,18 @@ where
     let rows = rows_of::<B, FMA>(block);
     for start in (0..block.n).step_by(GROUP) {
         let n = GROUP.min(block.n - start);
-        let [ax, ay, az] = group::load::<L>(&block.first, start, n, &mut first);
-        let [bx, by, bz] = group::load::<L>(&block.wo, start, n, &mut second);
-        let [ax, ay, az, bx, by, bz] = [&ax[..n], &ay[..n], &az[..n], &bx[..n], &by[..n], &bz[..n]];
+        let a = group::load::<L>(&block.first, start, n, &mut first);
+        let b = group::load::<L>(&block.wo, start, n, &mut second);
         if let Some(model) = &uniform {
-            for i in 0..n {
-                let (a, b) = (vec3(Lane(ax[i]), Lane(ay[i]), Lane(az[i])), vec3(Lane(bx[i]), Lane(by[i]), Lane(bz[i])));
-                odd[i] += count_odd::<FMA, B, F>(a, b);
-                F::run(domain, model, a, b, i, &mut out);
-            }
+            F::run_group(domain, |_| model, a, b, &mut odd, &mut out);
         } else {
-            for i in 0..n {
-                // SAFETY: `rows_of` checked that each row has `block.n` values; start + i is less
-                let model = B::gather(|p| Lane(unsafe { *rows[p].add(start + i) }));
-                let (a, b) = (vec3(Lane(ax[i]), Lane(ay[i]), Lane(az[i])), vec3(Lane(bx[i]), Lane(by[i]), Lane(bz[i])));
-                odd[i] += count_odd::<FMA, B, F>(a, b);
-                F::run(domain, &model, a, b, i, &mut out);
-            }
+            // SAFETY: `rows_of` checked that each row has `block.n` values; start + i is less
+            let model = |i: usize| B::gather(|p| Lane(unsafe { *rows[p].add(start + i) }));
+            F::run_group(domain, model, a, b, &mut odd, &mut out);
         }
         group::store::<L>(&out[..F::OUTPUTS], targets, block.start + start, n, streaming);
     }
     odd.iter().sum()
-}
-
-/// How many of two inputs are out of range.
-#[inline(always)]
-fn count_odd<const FMA: bool, B, F: Body<FMA, B>>(a: Vec3<Lane<FMA>>, b: Vec3<Lane<FMA>>) -> u32 {
-    u32::from(if F::FIRST_IS_DIRECTION { is_odd(a) } else { is_outside(a) }) + u32::from(is_odd(b))
 }
 
 /// Pointers to the values of each parameter: a slice of slices in the loop would keep it from vectorising.

@@ -46,7 +46,7 @@ pub fn load<'a, L: Lines>(from: &Vectors<'a>, start: usize, n: usize, rows: &'a 
         Err(_) => split(vectors, rows),
     }
     let [x, y, z] = rows;
-    [x, y, z]
+    [&x[..n], &y[..n], &z[..n]]
 }
 
 /// Writes the first `n` values of each row to elements `start..start + n` of the targets, past the caches if `streaming`
