@@ -265,6 +265,16 @@ def test_a_scene_of_meshes_is_subdivided_and_all_modes_approach_one_limit():
     assert lesk.compare_shading(POT, spp=1, frames=1, curve=False).curve == []
 
 
+def test_a_curve_under_a_lamp_with_an_area_ends_near_its_limit():
+    start = POT.index("[[lights]]")
+    lamp = '[[objects]]\nshape = "rectangle"\nwidth = "0.4 m"\nheight = "0.4 m"\nlight = { flux = "9000 lm", two_sided = true }\n'
+    place = "transform = { translate = [-2.0, -4.0, 4.5] }\n"
+    found = lesk.compare_shading(POT[:start] + lamp + place, spp=64, frames=1)
+    errors = [p["errors"]["phong"] for p in found.curve]
+    # what is left: noise of 64 samples, hard edges against filtered ones
+    assert errors[-1] < 0.3 and errors[-1] <= errors[0], errors
+
+
 def test_shapes_and_meshes_together_become_finer_together():
     ball = '[[objects]]\nshape = "sphere"\nradius = "0.4 m"\nmaterial = "red"\ntransform = { translate = [-1.2, 0, 0.4] }\n'
     found = lesk.compare_shading(POT.replace("[[lights]]", f"{ball}[[lights]]"), spp=4, frames=1)

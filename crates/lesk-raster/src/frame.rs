@@ -125,7 +125,7 @@ impl Raster {
         settings.check().map_err(|problem| Error::from_text(&problem))?;
         let prepared = Prepared::new(&scene, settings)?;
         let view = View::new(&scene, settings.supersampling, prepared.extent)?;
-        let obstacles = if settings.shadows { Some(prepared.world()?) } else { None };
+        let obstacles = if settings.shadows { Some(prepared.world(|_| None)?) } else { None };
         let mut number: HashMap<Kind, u32> = HashMap::new();
         let mut kinds = Vec::new();
         let kind_of = scene.objects.iter().map(|object| {
@@ -151,12 +151,17 @@ impl Raster {
         })
     }
 
-    /// The surfaces as the rasteriser sees them, for rays: one mesh per object, in the order of the scene.
+    /// The surfaces as the rasteriser sees them, for rays: one mesh per object, in the order of the scene. Surfaces that
+    /// shine stay as they are: light is drawn from points of theirs.
     ///
     /// # Errors
     /// More triangles than a world can hold.
     pub fn world(&self) -> Result<World> {
-        self.prepared.world()
+        let world = &self.scene.world;
+        self.prepared.world(|object| {
+            let shines = self.scene.objects[object].light.is_some();
+            shines.then(|| (world.geometry_of(object as u32).clone(), *world.place(object as u32)))
+        })
     }
 
     /// Warnings for the user, one sentence each.

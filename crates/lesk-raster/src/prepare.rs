@@ -175,10 +175,15 @@ impl Prepared {
     }
 
     /// The faces as a world for rays, one mesh per object, in the order of the scene's objects: what the path tracer needs
-    /// to see the same surfaces with the same normals.
-    pub fn world(&self) -> Result<World> {
+    /// to see the same surfaces with the same normals. What `keep` says stays the surface of that scene.
+    pub fn world(&self, keep: impl Fn(usize) -> Option<(Geometry, Transform)>) -> Result<World> {
         let mut builder = WorldBuilder::new();
         for object in 0..self.first_face.len() - 1 {
+            if let Some((geometry, place)) = keep(object) {
+                let number = builder.geometry(geometry);
+                builder.instance(number, place).map_err(|e| Error::new(e.to_string()))?;
+                continue;
+            }
             let mut data = MeshData::default();
             let faces = self.first_face[object] as usize..self.first_face[object + 1] as usize;
             let mut polygons = Vec::new();
