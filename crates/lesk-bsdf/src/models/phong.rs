@@ -66,7 +66,8 @@ impl<R: Real> Bsdf<R> for Phong<R> {
     #[inline(always)]
     fn eval(&self, wi: Vec3<R>, wo: Vec3<R>) -> Color<R> {
         let cos_alpha = lobe::cos_mirror(wi, wo).named("cos_alpha");
-        let highlight = lobe::cos_power(cos_alpha, self.shininess) / wi.z;
+        // not a division, which would have to wait for the power
+        let highlight = lobe::cos_power(cos_alpha, self.shininess) * wi.z.recip();
         // DEPARTS: the paper's k_d is not divided by pi; here it is a reflectance
         self.diffuse * R::FRAC_1_PI + self.specular * highlight
     }
