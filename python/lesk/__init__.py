@@ -16,6 +16,7 @@ pictures come from that one definition.
 - `lesk.check`: runs the claims of a model.
 - `lesk.light`: luminaires from IES and EULUMDAT files.
 - `lesk.measure`, `lesk.lux`: illuminance, luminance and glare at the sensors of a scene, with standard errors.
+- `lesk.validate`: measured light against closed forms.
 - `lesk.shade`, `lesk.mesh`: flat, Gouraud and Phong shading by a rasteriser; what a mesh file holds.
 - `lesk.quantity`, `lesk.spectrum`, `lesk.color`: light in units, with every assumption of a conversion named.
 - `lesk.render`, `lesk.scene`, `lesk.image`: pictures in cd/m², from a scene file to EXR, HDR and PNG.
@@ -41,7 +42,7 @@ from lesk.errors import (
 )
 
 if TYPE_CHECKING:
-    from lesk import color, f0, figures, image, light, mesh, models, plot, scene, terms
+    from lesk import color, f0, figures, image, light, mesh, models, plot, scene, terms, validate
     from lesk._check import CheckReport, check
     from lesk._compare_shading import Comparison, compare_shading
     from lesk._lesk import __version__
@@ -53,7 +54,7 @@ if TYPE_CHECKING:
     from lesk._render import Progress, Render, render
     from lesk._spectrum import ColorRendering, Spectrum, spectrum
 
-_MODULES = ("color", "f0", "figures", "image", "light", "mesh", "models", "plot", "scene", "terms")
+_MODULES = ("color", "f0", "figures", "image", "light", "mesh", "models", "plot", "scene", "terms", "validate")
 _NAMES = {
     "CheckReport": "_check",
     "Classic": "_raster",
@@ -127,6 +128,7 @@ __all__ = [
     "shade",
     "spectrum",
     "terms",
+    "validate",
 ]
 
 

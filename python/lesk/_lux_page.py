@@ -102,7 +102,7 @@ def _glare(report: LuxReport) -> str:
 
 
 def _plan(report: LuxReport, sensor: Readings, scene: Scene | None) -> str:
-    from lesk._lux_plot import plan
+    from lesk.plot import plan
 
     buffer = io.BytesIO()
     plan(sensor, factor=report.factor(sensor), scene=scene).savefig(buffer, format="png")

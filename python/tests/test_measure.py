@@ -13,7 +13,7 @@ import pytest
 
 import lesk
 from lesk import _closed_forms as exact
-from lesk import _validate
+from lesk import validate
 from lesk._light_cases import cases
 from lesk.cli import main
 
@@ -232,13 +232,13 @@ def test_validation_has_enough_rows_and_its_quick_ones_agree():
     assert sum(len(case.rows) for case in table) >= 60
     for case in table:
         if case.group in ("point", "spot", "rectangle", "disk", "Fresnel"):
-            for row in _validate.compare(case, seed=0):
+            for row in validate.compare(case, seed=0):
                 assert row.met, (row, row.z)
 
 
 def test_a_wrong_row_differs():
-    row = _validate.Compared("x", "y", 100.0, 100.9, 0.15, "lx", False)
+    row = validate.Compared("x", "y", 100.0, 100.9, 0.15, "lx", False)
     assert not row.met and row.z == pytest.approx(6, rel=1e-3)
-    assert not _validate.Compared("x", "y", 100.0, 100.1, 0.3, "lx", False).met  # too noisy
-    assert not _validate.Compared("x", "y", 100.0, 100.01, 0.0, "lx", True).met
-    assert _validate.Compared("x", "y", 100.0, 100.0005, 0.0, "lx", True).met
+    assert not validate.Compared("x", "y", 100.0, 100.1, 0.3, "lx", False).met  # too noisy
+    assert not validate.Compared("x", "y", 100.0, 100.01, 0.0, "lx", True).met
+    assert validate.Compared("x", "y", 100.0, 100.0005, 0.0, "lx", True).met

@@ -52,9 +52,9 @@ def main(
             value, status = illuminances(scene, width, share(error, "--error"), time)
         else:
             value, status = luminances(scene, spp, time)
-    from lesk._lux_plot import picture as draw
+    from lesk.plot import false_color
 
-    figure = draw(value, unit, low=ends[0], high=ends[1], log=log, title=title)
+    figure = false_color(value, unit, low=ends[0], high=ends[1], log=log, title=title)
     try:
         figure.savefig(output)
     except OSError as failure:

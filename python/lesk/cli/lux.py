@@ -88,7 +88,7 @@ def share(text: str, what: str) -> float:
 
 def write(report: LuxReport, scene: Any, csv: Path | None, html: Path | None, plan: Path | None) -> None:
     """Write the files that were asked for."""
-    from lesk import _lux_page, _lux_plot
+    from lesk import _lux_page, plot
 
     if csv is not None:
         save(csv, report.csv())
@@ -98,7 +98,7 @@ def write(report: LuxReport, scene: Any, csv: Path | None, html: Path | None, pl
         grids = [s for s in report.measurement.sensors if s.form in ("grid", "line")]
         if not grids:
             raise ParameterError("`--plan` is given, but no sensor is a grid or a line")
-        figure = _lux_plot.plan(grids[0], factor=report.factor(grids[0]), scene=scene)
+        figure = plot.plan(grids[0], factor=report.factor(grids[0]), scene=scene)
         try:
             figure.savefig(plan)
         except (OSError, ValueError) as error:

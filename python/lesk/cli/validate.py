@@ -8,7 +8,7 @@ from typing import Annotated
 
 import typer
 
-from lesk import _validate
+from lesk import validate
 from lesk.cli._run import Json, emit
 from lesk.cli.lux import save
 from lesk.errors import ParameterError
@@ -28,12 +28,12 @@ def main(
     if what != "lights":
         raise ParameterError(f"there is nothing to validate called `{what}`, but `lights` is accepted")
     say = (lambda text: print(f"\r\033[K{text}", end="", file=sys.stderr)) if sys.stderr.isatty() else None
-    rows = _validate.lights(seed=seed, say=say)
+    rows = validate.lights(seed=seed, say=say)
     if say is not None:
         print("\r\033[K", end="", file=sys.stderr)
     passed = all(row.met for row in rows)
     if markdown is not None:
-        save(markdown, _validate.markdown(rows))
+        save(markdown, validate.markdown(rows))
     if json:
         data = [{**vars(r), "z": r.z, "deviation": r.deviation, "met": r.met} for r in rows]
         emit({"passed": passed, "rows": data})
@@ -42,7 +42,7 @@ def main(
     return 0 if passed else 1
 
 
-def show(rows: list[_validate.Compared]) -> None:
+def show(rows: list[validate.Compared]) -> None:
     """Print the table."""
     from rich.console import Console
     from rich.table import Table
@@ -51,11 +51,11 @@ def show(rows: list[_validate.Compared]) -> None:
     for name in ("case", "", "closed form", "Lesk", "standard error", "z", ""):
         table.add_column(name, justify="left" if name in ("case", "") else "right")
     for r in rows:
-        table.add_row(r.group, r.what, *_validate.columns(r))
+        table.add_row(r.group, r.what, *validate.columns(r))
     Console(highlight=False).print(table)
     differ = [r for r in rows if not r.met]
     noisy = [r for r in rows if not r.deterministic]
     print(
         f"{len(rows)} rows, {len(differ)} differ: {len(rows) - len(noisy)} deterministic within "
-        f"{_validate.DETERMINISTIC:g}, {len(noisy)} with noise at |z| < {_validate.Z:g}"
+        f"{validate.DETERMINISTIC:g}, {len(noisy)} with noise at |z| < {validate.Z:g}"
     )

@@ -1,4 +1,4 @@
-"""Plots of models, terms, luminaires and skies.
+"""Plots of models, terms, luminaires, skies and measured light.
 
 Every function gives a matplotlib figure that shows itself in a notebook and is saved with `savefig`; nothing touches
 matplotlib's global state. Light comes from the left; angles are degrees from the normal.
@@ -12,6 +12,7 @@ from lesk.plot._albedo import albedo
 from lesk.plot._figure import Plot
 from lesk.plot._lobe3d import lobe3d
 from lesk.plot._luminaire import intensity, web
+from lesk.plot._measured import false_color, plan
 from lesk.plot._polar import polar
 from lesk.plot._sky import sky
 from lesk.plot._slice import slice
@@ -22,9 +23,11 @@ from lesk.plot._term import term
 __all__ = [
     "Plot",
     "albedo",
+    "false_color",
     "intensity",
     "lobe3d",
     "observers",
+    "plan",
     "polar",
     "sky",
     "slice",

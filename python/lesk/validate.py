@@ -1,4 +1,4 @@
-"""`lesk validate lights`: closed forms against readings, as one table."""
+"""Measured light against closed forms, as one table: `lesk validate lights`."""
 
 from __future__ import annotations
 

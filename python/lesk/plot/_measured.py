@@ -179,7 +179,7 @@ def _curve(sensor: Readings, factor: float) -> Plot:
     return figure
 
 
-def picture(
+def false_color(
     value: Array, unit: str, *, low: float | None = None, high: float | None = None, log: bool = False, title: str = ""
 ) -> Plot:
     """Draw a picture of numbers in false colours beside their scale.
