@@ -101,7 +101,7 @@ class Spectrum:
 
     @property
     def color_temperature(self) -> tuple[float, float] | None:
-        """Correlated colour temperature in K and Duv; None where the CIE gives them no meaning (|Duv| > 0.05)."""
+        """Correlated colour temperature in K and Duv; None where the CIE gives them no meaning (Duv beyond 0.05)."""
         return self.core.color_temperature()
 
     @property
