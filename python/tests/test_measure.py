@@ -10,12 +10,14 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from matplotlib.figure import Figure
 
 import lesk
 from lesk import _closed_forms as exact
 from lesk import validate
 from lesk._light_cases import cases
 from lesk.cli import main
+from lesk.plot import _measured
 
 OFFICE = Path(__file__).parents[2] / "examples" / "scenes" / "office.toml"
 
@@ -137,6 +139,21 @@ def test_tasks_are_listed(capsys: pytest.CaptureFixture[str]):
     data = json.loads(capsys.readouterr().out)
     tasks = {task["id"]: task for task in data["tasks"]}
     assert tasks["office.writing"]["illuminance"] == 500 and "check the edition in force" in data["standard"]
+
+
+def test_plans_leave_out_specks_and_number_long_lines_only():
+    # a slope from 0 to 100 lx over 2 m, one noisy cell at 95 lx, and a dip of 4 x 4 cells
+    x, y = np.meshgrid(np.linspace(0, 2, 41), np.linspace(0, 1, 21))
+    value = 50 * x
+    value[10, 8], value[4:8, 24:28] = 95, 5
+    axes = Figure().add_subplot()
+    contours = axes.contour(x, y, value, levels=[60, 90])
+    pieces = [len(path.to_polygons(closed_only=False)) for path in contours.get_paths()]
+    middles = _measured._prune(contours, smallest=0.15, long=0.5)
+    # at 60 lx the slope, the noise and the dip; at 90 lx the slope and the noise
+    assert pieces == [3, 2]
+    assert [len(path.to_polygons(closed_only=False)) for path in contours.get_paths()] == [2, 1]
+    assert sorted(round(float(at[0]), 1) for at in middles) == [1.2, 1.8]
 
 
 def test_files_and_false_colours_are_written(room: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]):

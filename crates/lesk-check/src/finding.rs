@@ -77,3 +77,31 @@ pub fn worst(findings: impl Iterator<Item = Finding>, stop: bool) -> Option<Find
     }
     worst
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn found(value: f64, allowed: f64) -> Finding {
+        Finding { value, allowed, error: 0.0, params: vec![], wi: Vec3::Z, wo: Vec3::Z, note: String::new() }
+    }
+
+    #[test]
+    fn the_worse_finding_is_a_violation_then_the_larger_part_of_what_is_allowed() {
+        // (value, allowed) of the worse and of the better one
+        for (worse, better) in [
+            // half of what is allowed is worse than a larger value where almost anything is
+            ((1e-15, 2e-15), (1.0, 1e30)),
+            ((2.0, 1.0), (0.9, 1.0)),
+            // of violations the larger value, however little was allowed
+            ((0.8, 0.1), (0.5, 1e-12)),
+            ((f64::NAN, 1.0), (5.0, 1.0)),
+            ((1e-3, 0.0), (1e-4, 0.0)),
+        ] {
+            let (a, b) = (found(worse.0, worse.1), found(better.0, better.1));
+            for chosen in [a.clone().worse(b.clone()), b.worse(a)] {
+                assert_eq!(chosen.value.to_bits(), worse.0.to_bits(), "{worse:?} {better:?}");
+            }
+        }
+    }
+}

@@ -40,8 +40,8 @@ impl PyPhotometry {
         theta_deg: PyReadonlyArray1<'py, f64>,
         phi_deg: PyReadonlyArray1<'py, f64>,
     ) -> Bound<'py, PyArray1<f64>> {
-        let pairs = theta_deg.as_array().into_iter().zip(phi_deg.as_array()).map(|(t, p)| [*t, *p]).collect::<Vec<_>>();
-        let values = pairs.iter().map(|[t, p]| self.0.intensity(t.to_radians(), p.to_radians())).collect();
+        let pairs = theta_deg.as_array().into_iter().zip(phi_deg.as_array());
+        let values = pairs.map(|(t, p)| self.0.intensity(t.to_radians(), p.to_radians())).collect();
         PyArray1::from_vec(py, values)
     }
 
