@@ -145,7 +145,7 @@ def test_plans_leave_out_specks_and_number_long_lines_only():
     # a slope from 0 to 100 lx over 2 m, one noisy cell at 95 lx, and a dip of 4 x 4 cells
     x, y = np.meshgrid(np.linspace(0, 2, 41), np.linspace(0, 1, 21))
     value = 50 * x
-    value[10, 8], value[4:8, 24:28] = 95, 5
+    value[10, 8], value[4:8, 30:34] = 95, 5
     axes = Figure().add_subplot()
     contours = axes.contour(x, y, value, levels=[60, 90])
     pieces = [len(path.to_polygons(closed_only=False)) for path in contours.get_paths()]
