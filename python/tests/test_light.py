@@ -46,6 +46,13 @@ def test_the_louvre_of_the_examples_is_its_formula():
     assert lamp.declared_flux_lm == 4000
 
 
+def test_the_web_states_the_largest_intensity_of_the_file(tmp_path: Path) -> None:
+    # linear from 100 cd at nadir to a peak of 250 cd at 33 degrees, which no point of the drawn surface meets
+    text = "IES:LM-63-2019\nTILT=NONE\n1 -1 1 3 1 1 2 0.6 0.6 0\n1 1.00001 9\n0 33 90\n0\n100 250 0\n"
+    (tmp_path / "ring.ies").write_text(text)
+    assert "250 cd" in lesk.plot.web(lesk.light.read(tmp_path / "ring.ies")).get_suptitle()
+
+
 def run(capsys: pytest.CaptureFixture[str], *words: object) -> tuple[int, str, str]:
     status = main(["light", *map(str, words)])
     out, err = capsys.readouterr()

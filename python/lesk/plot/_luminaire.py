@@ -120,6 +120,7 @@ def web(luminaire: Luminaire) -> Plot:
         axes.set_box_aspect([high - low for low, high in spans])
         axes.set_axis_off()
         axes.view_init(elev=18, azim=-60)
-        unit = f"{peak:.5g} cd" if luminaire.flux_lm is not None else f"{1e3 * peak:.5g} mW/sr"
-        fig.suptitle(f"Intensities, largest {unit}")
+        # the largest of the file, which may lie between the points of the surface
+        cd, mw_sr = luminaire.facts["peak_cd"], luminaire.facts["peak_mw_sr"]
+        fig.suptitle("Intensities, largest " + (f"{cd:.5g} cd" if cd is not None else f"{mw_sr:.5g} mW/sr"))
     return fig
