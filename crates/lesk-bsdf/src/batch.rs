@@ -5,7 +5,7 @@
 
 pub use crate::kernels::UNIT_TOLERANCE;
 use crate::kernels::group::LINE;
-use crate::kernels::{BLOCK, Block, DRAW_OUTPUTS, GROUP, Kernel, Row, Vectors};
+use crate::kernels::{BLOCK, Block, DRAW_OUTPUTS, EVAL_PDF_OUTPUTS, GROUP, Kernel, Row, Vectors};
 use crate::scatter::Scatter;
 pub use crate::target::Target;
 use lesk_math::{CHANNELS, Isa};
@@ -94,6 +94,47 @@ pub fn draw(
     out: &mut [Target],
 ) -> usize {
     run(model.kernels().for_isa(isa).draw, DRAW_OUTPUTS, params, u, wo, n, out)
+}
+
+/// Rows of numbers for many directions at once, each with its own parameters, all of the same length.
+#[derive(Clone, Copy)]
+pub struct Rows<'a> {
+    /// One row per entry of the flat parameter table.
+    pub params: &'a [&'a [f32]],
+    /// x, y and z of `wi`, or the numbers `u` of a draw.
+    pub first: [&'a [f32]; 3],
+    /// x, y and z of `wo`.
+    pub wo: [&'a [f32]; 3],
+}
+
+/// What [`Scatter::eval_pdf`] gives for each direction: f per channel and the density, in 1/sr.
+///
+/// # Panics
+/// If a row is shorter than the first of `out`.
+pub fn eval_pdf_rows(model: &dyn Scatter, isa: Isa, rows: Rows, out: [&mut [f32]; EVAL_PDF_OUTPUTS]) {
+    run_rows(model.kernels().for_isa(isa).eval_pdf, rows, out);
+}
+
+/// What [`Scatter::draw`] gives for each direction: the outputs of [`draw`].
+///
+/// # Panics
+/// If a row is shorter than the first of `out`.
+pub fn draw_rows(model: &dyn Scatter, isa: Isa, rows: Rows, out: [&mut [f32]; DRAW_OUTPUTS]) {
+    run_rows(model.kernels().for_isa(isa).draw, rows, out);
+}
+
+fn run_rows<const N: usize>(kernel: Kernel, rows: Rows, out: [&mut [f32]; N]) {
+    let n = out[0].len();
+    let block = Block {
+        start: 0,
+        n,
+        params: rows.params,
+        uniform: false,
+        first: Vectors::Planes(rows.first.map(|row| &row[..n])),
+        wo: Vectors::Planes(rows.wo.map(|row| &row[..n])),
+    };
+    // SAFETY: `for_isa` checked that this processor has the instruction set
+    unsafe { kernel(&block, &mut out.map(|row| Target::Row(&mut row[..n])), false) };
 }
 
 fn run(

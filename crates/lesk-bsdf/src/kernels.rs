@@ -33,6 +33,9 @@ pub type Row = [f32; BLOCK];
 /// The longest flat parameter table.
 pub const MAX_PARAMS: usize = 32;
 
+/// Outputs of eval and pdf together.
+pub const EVAL_PDF_OUTPUTS: usize = CHANNELS + 1;
+
 /// Outputs of a draw: wi, weight, pdf, delta.
 pub const DRAW_OUTPUTS: usize = 3 + CHANNELS + 2;
 
@@ -71,6 +74,7 @@ pub type Kernel = unsafe fn(&Block, &mut [Target], streaming: bool) -> u32;
 pub struct KernelSet {
     pub eval: Kernel,
     pub pdf: Kernel,
+    pub eval_pdf: Kernel,
     pub draw: Kernel,
 }
 
@@ -151,6 +155,21 @@ impl<const FMA: bool, B: Bsdf<Lane<FMA>>> Body<FMA, B> for Pdf {
     #[inline(always)]
     fn run(domain: Domain, model: &B, wi: Vec3<Lane<FMA>>, wo: Vec3<Lane<FMA>>, i: usize, out: &mut [Group]) {
         out[0][i] = bsdf::pdf(domain, model, wi, wo).0;
+    }
+}
+
+/// Both at once: what they share is computed once.
+pub(crate) struct EvalPdf;
+impl<const FMA: bool, B: Bsdf<Lane<FMA>>> Body<FMA, B> for EvalPdf {
+    const OUTPUTS: usize = EVAL_PDF_OUTPUTS;
+    const FIRST_IS_DIRECTION: bool = true;
+    #[inline(always)]
+    fn run(domain: Domain, model: &B, wi: Vec3<Lane<FMA>>, wo: Vec3<Lane<FMA>>, i: usize, out: &mut [Group]) {
+        let f = bsdf::eval(domain, model, wi, wo);
+        for c in 0..CHANNELS {
+            out[c][i] = f.0[c].0;
+        }
+        out[CHANNELS][i] = bsdf::pdf(domain, model, wi, wo).0;
     }
 }
 

@@ -61,7 +61,7 @@ pub(crate) use methods;
 macro_rules! kernel_set {
     ($fma:literal, $Lines:ty, $Type:ident, $MODEL:expr $(, $feature:literal)?) => {{
         type M = $Type<lesk_math::Lane<$fma>>;
-        use crate::kernels::{Block, Draw, Eval, Pdf, run_block};
+        use crate::kernels::{Block, Draw, Eval, EvalPdf, Pdf, run_block};
         use crate::target::Target;
         $(#[target_feature(enable = $feature)])?
         unsafe fn eval(block: &Block, out: &mut [Target], streaming: bool) -> u32 {
@@ -72,10 +72,14 @@ macro_rules! kernel_set {
             run_block::<$fma, $Lines, M, Pdf>($MODEL.domain, block, out, streaming)
         }
         $(#[target_feature(enable = $feature)])?
+        unsafe fn eval_pdf(block: &Block, out: &mut [Target], streaming: bool) -> u32 {
+            run_block::<$fma, $Lines, M, EvalPdf>($MODEL.domain, block, out, streaming)
+        }
+        $(#[target_feature(enable = $feature)])?
         unsafe fn draw(block: &Block, out: &mut [Target], streaming: bool) -> u32 {
             run_block::<$fma, $Lines, M, Draw>($MODEL.domain, block, out, streaming)
         }
-        crate::kernels::KernelSet { eval, pdf, draw }
+        crate::kernels::KernelSet { eval, pdf, eval_pdf, draw }
     }};
 }
 pub(crate) use kernel_set;

@@ -50,6 +50,7 @@ mod ray;
 mod robust;
 mod shapes;
 mod surface;
+pub mod surfaces;
 mod teapot;
 mod terminator;
 mod transform;

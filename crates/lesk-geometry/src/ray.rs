@@ -53,17 +53,23 @@ impl Ray {
     /// From the surface to a point on another one, lifted off both.
     #[inline]
     pub fn to_sample(from: &Surface, to: &SurfaceSample) -> Self {
-        let back = from.p - to.p;
+        Self::to_lifted(from, to.p, to.n, to.lift)
+    }
+
+    /// From the surface to the point `p` of one with the unit normal `n`, lifted off both, there by `lift` metres.
+    #[inline(always)]
+    pub fn to_lifted(from: &Surface, p: Vec3<f32>, n: Vec3<f32>, lift: f32) -> Self {
+        let back = from.p - p;
         // `d` is rounded to half a digit of its own: far away that is more than the digits of the point
         let rounding = f32::EPSILON * (back.x.abs() + back.y.abs() + back.z.abs());
-        let target = to.p + to.n * (to.lift + rounding).copysign(to.n.dot(back));
+        let target = p + n * (lift + rounding).copysign(n.dot(back));
         let o = from.lifted(target - from.p);
         Ray { o, d: target - o, t_min: 0.0, t_max: 1.0 }
     }
 }
 
 /// The nearest surface along a ray.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Hit {
     /// Parameter along the ray.
     pub t: f32,

@@ -5,7 +5,7 @@ use crate::ray::{Hit, Ray};
 use crate::robust::{abs, lift};
 use crate::shapes::{Geometry, shape_surface};
 use crate::transform::{Transform, narrow, widen};
-use lesk_math::{Frame, Vec3, vec3};
+use lesk_math::{Frame, Real, Vec3, vec3};
 
 /// A point of a surface in the world, with what shading needs to know.
 #[derive(Clone, Copy, Debug)]
@@ -59,6 +59,7 @@ impl Surface {
 }
 
 /// The surface of a curved shape where `hit` found it.
+#[inline(never)]
 pub(crate) fn curved_surface(geometry: &Geometry, place: &Transform, ray: &Ray, hit: &Hit) -> Surface {
     let p_ray = widen(ray.o) + widen(ray.d) * hit.t as f64;
     let local = shape_surface(geometry, hit.prim, place.inverse().point_f64(p_ray));
@@ -78,15 +79,13 @@ pub(crate) fn curved_surface(geometry: &Geometry, place: &Transform, ray: &Ray, 
 }
 
 /// The surface of a triangle with the corners `local` where `hit` found it; no `place` is the identity.
-#[inline]
+#[inline(always)]
 pub(crate) fn triangle_surface(mesh: &Mesh, local: &[Vec3<f32>; 3], place: Option<&Transform>, hit: &Hit) -> Surface {
     let index = hit.prim as usize;
     let world = place.map_or(*local, |place| local.map(|v| place.point(v)));
-    let [a, b, c] = world.map(widen);
+    let corners = world.map(widen);
     let weights = [1.0 - hit.u - hit.v, hit.u, hit.v];
-    let wide = weights.map(f64::from);
-    let p = narrow(a * wide[0] + b * wide[1] + c * wide[2]);
-    let outward = (b - a).cross(c - a).normalize();
+    let (p, outward) = facet(corners, weights);
     let ng = narrow(place.map_or(outward, |place| outward * place.determinant().signum()));
     let ns = shading_normal(mesh, place, index, weights, ng);
     Surface {
@@ -94,25 +93,46 @@ pub(crate) fn triangle_surface(mesh: &Mesh, local: &[Vec3<f32>; 3], place: Optio
         ng,
         ns,
         uv: triangle_uv(mesh, index, [hit.u, hit.v]),
-        dpdu: tangent(mesh, index, [b - a, c - a]).unwrap_or_else(|| Frame::from_normal(ns).t),
+        dpdu: tangent(mesh, index, [corners[1] - corners[0], corners[2] - corners[0]])
+            .unwrap_or_else(|| Frame::from_normal(ns).t),
         lift: lift(ng, magnitude(place, local, p)),
         instance: hit.instance,
         prim: hit.prim,
     }
 }
 
+/// The point of a triangle at the weights of its corners, and its unit normal, to the side from which it winds
+/// counter-clockwise.
+#[inline(always)]
+pub(crate) fn facet([a, b, c]: [Vec3<f64>; 3], weights: [f32; 3]) -> (Vec3<f32>, Vec3<f64>) {
+    let [wa, wb, wc] = [weights[0] as f64, weights[1] as f64, weights[2] as f64];
+    (narrow(a * wa + b * wb + c * wc), (b - a).cross(c - a).normalize())
+}
+
+/// The normal between those of the corners, `ng` where they are no use for shading: they cancel, or a coarse mesh bends them
+/// beyond the horizon.
+#[inline(always)]
+pub(crate) fn usable_normal(between: Vec3<f32>, ng: Vec3<f32>) -> Vec3<f32> {
+    Vec3::select(between.dot(ng) > 1e-4, between, ng)
+}
+
 /// Bounds the coordinates that take part in finding a point of the triangle, in the world and in its local space.
 fn magnitude(place: Option<&Transform>, local: &[Vec3<f32>; 3], p: Vec3<f32>) -> Vec3<f32> {
-    let [a, b, c] = local.map(abs);
-    let larger = |x: f32, y: f32| if x > y { x } else { y };
-    let largest = |x: f32, y: f32, z: f32| larger(larger(x, y), z);
-    let size = [largest(a.x, b.x, c.x), largest(a.y, b.y, c.y), largest(a.z, b.z, c.z)];
-    let Some(place) = place else { return Vec3::from(size) + abs(p) };
+    let Some(place) = place else { return extent(local) + abs(p) };
+    let size = extent(local).to_array();
     let row = |r: &[f64; 4]| (0..3).map(|k| r[k].abs() as f32 * size[k]).sum::<f32>() + r[3].abs() as f32;
     let m = place.rows();
     vec3(row(&m[0]), row(&m[1]), row(&m[2])) + abs(p)
 }
 
+/// The largest absolute coordinates of three corners.
+#[inline(always)]
+pub(crate) fn extent([a, b, c]: &[Vec3<f32>; 3]) -> Vec3<f32> {
+    let (a, b, c) = (abs(*a), abs(*b), abs(*c));
+    vec3(Real::max(Real::max(a.x, b.x), c.x), Real::max(Real::max(a.y, b.y), c.y), Real::max(Real::max(a.z, b.z), c.z))
+}
+
+#[inline(always)]
 fn shading_normal(mesh: &Mesh, place: Option<&Transform>, index: usize, weights: [f32; 3], ng: Vec3<f32>) -> Vec3<f32> {
     if mesh.normals().is_empty() {
         return ng;
@@ -120,8 +140,7 @@ fn shading_normal(mesh: &Mesh, place: Option<&Transform>, index: usize, weights:
     let n = mesh.triangles()[index].map(|i| mesh.normals()[i as usize]);
     let sum = n[0] * weights[0] + n[1] * weights[1] + n[2] * weights[2];
     let ns = place.map_or_else(|| sum.normalize(), |place| place.normal(sum));
-    // normals that cancel, or that a coarse mesh bends beyond the horizon, are no use for shading
-    if ns.dot(ng) > 1e-4 { ns } else { ng }
+    usable_normal(ns, ng)
 }
 
 /// Texture coordinates at the barycentric weights of the second and third corner.

@@ -5,6 +5,7 @@ use crate::bounds::LightBounds;
 use crate::emission_map::{Carrier, EmissionMap, MeshMap, ShapeMap};
 use crate::error::{LightError, check_color};
 use crate::parts::{Extent, Parts};
+use crate::rectangle::Rectangle;
 use crate::sample::{LightSample, Receiver, Target, per_steradian, toward};
 use crate::triangle::Triangle;
 use lesk_geometry::{AreaSampler, Geometry, Surface, SurfaceSample, Transform};
@@ -169,6 +170,15 @@ impl Area {
     fn triangle(&self, prim: u32) -> Option<&Triangle> {
         let Form::Parts(parts) = &self.form else { return None };
         parts.triangle(parts.part_of(prim)?).map(|(triangle, _)| triangle)
+    }
+
+    /// The rectangle that a part is, evenly bright.
+    #[inline]
+    pub(crate) fn rectangle(&self, part: u32) -> Option<&Rectangle> {
+        match &self.form {
+            Form::Parts(parts) if self.map.is_none() => parts.rectangle(part),
+            _ => None,
+        }
     }
 
     /// How many lights this one is for the purpose of choosing.

@@ -1,6 +1,7 @@
 //! All lights of a scene, and the choice of one.
 
 use crate::error::LightError;
+use crate::far::FarRectangles;
 use crate::light::Light;
 use crate::sample::{LightSample, Receiver};
 use crate::tree::{LightTree, MAX_LIGHTS};
@@ -24,6 +25,15 @@ pub struct Lights {
     /// The place in `infinite` of each light that is there, and for each such place the sum of illuminances up to it, lx.
     rank: Vec<u32>,
     sums: Vec<f64>,
+}
+
+/// What [`Lights::sample_or_note`] did.
+#[derive(Clone, Copy, Debug)]
+pub enum Answer {
+    /// [`FarRectangles::sample`] will tell.
+    Noted,
+    /// As [`Lights::sample`].
+    Sample(LightSample),
 }
 
 /// The share of choices between distant lights and the tree of the others that does not depend on their strength: a weak
@@ -156,10 +166,37 @@ impl Lights {
     /// `None` where nothing arrives for these numbers, which counts as a sample of value 0.
     pub fn sample(&self, at: &Receiver, u_light: f32, u: [f32; 2]) -> Option<LightSample> {
         let (light, part, pmf) = self.choose(at, u_light)?;
+        self.sample_chosen(light, part, pmf, at, u)
+    }
+
+    #[inline]
+    fn sample_chosen(&self, light: u32, part: u32, pmf: f32, at: &Receiver, u: [f32; 2]) -> Option<LightSample> {
         let mut sample = self.list[light as usize].sample(part, at, u)?;
         sample.pdf *= pmf;
         sample.light = light;
         (sample.pdf > 0.0 && sample.pdf.is_finite()).then_some(sample)
+    }
+
+    /// As [`sample`](Self::sample), but a rectangle that is seen small is only noted at place `i` of `far`, to be sampled
+    /// there together with others.
+    #[inline]
+    pub fn sample_or_note(
+        &self,
+        at: &Receiver,
+        u_light: f32,
+        u: [f32; 2],
+        i: usize,
+        far: &mut FarRectangles,
+    ) -> Option<Answer> {
+        let (light, part, pmf) = self.choose(at, u_light)?;
+        if let Light::Area(area) = &self.list[light as usize]
+            && let Some(rectangle) = area.rectangle(part)
+            && rectangle.is_far(at.p)
+        {
+            far.note(i, at.p, rectangle, area, pmf, u);
+            return Some(Answer::Noted);
+        }
+        self.sample_chosen(light, part, pmf, at, u).map(Answer::Sample)
     }
 
     /// The density of [`sample`](Self::sample) in 1/sr for the surface of area light `light` that a ray from the

@@ -96,6 +96,15 @@ impl Parts {
         }
     }
 
+    /// A part that is a rectangle.
+    #[inline]
+    pub fn rectangle(&self, part: u32) -> Option<&Rectangle> {
+        match self.list.get(part as usize) {
+            Some(Part::Rectangle(rectangle)) => Some(rectangle),
+            _ => None,
+        }
+    }
+
     /// A point of a part for the receiver at `x`; its `pdf` is per steradian.
     #[inline]
     pub fn sample_from(&self, part: u32, x: Vec3<f32>, u: [f32; 2]) -> Option<SurfaceSample> {

@@ -84,15 +84,22 @@ impl Rectangle {
         }
     }
 
+    /// Whether it is sampled by area for the receiver at `x`, because it is seen small from there.
+    #[inline]
+    pub fn is_far(&self, x: Vec3<f32>) -> bool {
+        self.far.is_far(x)
+    }
+
+    /// How far a ray must keep from it, metres.
+    pub fn lift(&self) -> f32 {
+        self.lift
+    }
+
     /// The point on one of the two triangles, and which.
     #[inline]
-    fn point(&self, [u, v]: [f32; 2]) -> (Vec3<f32>, u32) {
-        let [c, a, b, d] = self.corners;
-        if u + v <= 1.0 {
-            (c + (a - c) * u + (b - c) * v, self.prims[0])
-        } else {
-            (d + (b - d) * (1.0 - u) + (a - d) * (1.0 - v), self.prims[1])
-        }
+    fn point(&self, uv: [f32; 2]) -> (Vec3<f32>, u32) {
+        let (p, is_first) = point(self.corners, uv);
+        (p, self.prims[usize::from(!is_first)])
     }
 
     #[inline]
@@ -106,4 +113,15 @@ impl Rectangle {
         let seen = SphericalRectangle::new(c, a - c, b - c, widen(x))?;
         SEEN_LARGE.contains(&seen.solid_angle()).then_some(seen)
     }
+}
+
+/// The point `uv` along the edges of a rectangle with the corners of [`Rectangle`], and whether it lies on the triangle of
+/// the first three.
+#[inline(always)]
+pub(crate) fn point([c, a, b, d]: [Vec3<f32>; 4], [u, v]: [f32; 2]) -> (Vec3<f32>, bool) {
+    let is_first = u + v <= 1.0;
+    let (corner, along_u, along_v) =
+        (Vec3::select(is_first, c, d), Vec3::select(is_first, a, b), Vec3::select(is_first, b, a));
+    let (u, v) = if is_first { (u, v) } else { (1.0 - u, 1.0 - v) };
+    (corner + (along_u - corner) * u + (along_v - corner) * v, is_first)
 }

@@ -169,14 +169,15 @@ impl Triangle {
 }
 
 /// 1/area as a density over solid angle, at the point `p` of a surface with the unit normal `n`; 0 edge-on.
-#[inline]
+#[inline(always)]
 pub(crate) fn area_pdf(x: Vec3<f32>, p: Vec3<f32>, n: Vec3<f32>, area: f32) -> f32 {
     let to = p - x;
     let square = to.length_squared();
     let distance = square.sqrt();
     let height = to.dot(n).abs();
     let pdf = square * distance / (height * area);
-    if height > 1e-9 * distance && pdf.is_finite() { pdf } else { 0.0 }
+    // infinity and NaN fail the comparison
+    if (height > 1e-9 * distance) & (pdf <= f32::MAX) { pdf } else { 0.0 }
 }
 
 /// A triangle on the unit sphere.

@@ -197,3 +197,43 @@ impl Isa {
         names.join(", ")
     }
 }
+
+/// Calls a function without return value, compiled for the instruction set given: `for_isa!(isa, function, x: X, y: Y)`,
+/// or `for_isa!(isa, function, [generics], x: X, y: Y)`.
+///
+/// The function has to be `#[inline(always)]`, and the loops in it without branches. No fused products: the results are
+/// the same bits for every instruction set.
+///
+/// # Panics
+/// If this processor lacks the instruction set.
+#[macro_export]
+macro_rules! for_isa {
+    ($isa:expr, $function:expr, $($argument:ident: $Type:ty),+) => {
+        $crate::for_isa!($isa, $function, [], $($argument: $Type),+)
+    };
+    ($isa:expr, $function:expr, [$($generics:tt)*], $($argument:ident: $Type:ty),+) => {{
+        let isa: $crate::Isa = $isa;
+        assert!(isa.is_available(), "this processor lacks {}", isa.name());
+        match isa {
+            #[cfg(target_arch = "x86_64")]
+            $crate::Isa::Avx512 => {
+                #[target_feature(enable = "avx2,avx512f,avx512vl,avx512bw,avx512dq")]
+                fn avx512<$($generics)*>($($argument: $Type),+) {
+                    $function($($argument),+)
+                }
+                // SAFETY: it is available
+                unsafe { avx512($($argument),+) }
+            }
+            #[cfg(target_arch = "x86_64")]
+            $crate::Isa::Avx2 => {
+                #[target_feature(enable = "avx2")]
+                fn avx2<$($generics)*>($($argument: $Type),+) {
+                    $function($($argument),+)
+                }
+                // SAFETY: it is available
+                unsafe { avx2($($argument),+) }
+            }
+            _ => $function($($argument),+),
+        }
+    }};
+}

@@ -7,6 +7,7 @@
 //! a pixel are scrambled anew, so that points need 16 bits of their index only.
 
 use crate::rng::{mix64, unit_f32};
+use crate::{Isa, for_isa};
 
 /// The numbers of one sample of one pixel, drawn in order.
 ///
@@ -69,18 +70,76 @@ impl Sampler {
     #[inline]
     pub fn next4d(&mut self) -> [f32; 4] {
         let (index, hash) = self.next_set();
-        let [x, y] = scrambled([index, reversed_second(index)], hash);
-        let [z, w] = scrambled(reversed_third_and_fourth(index), mix64(hash));
-        [x, y, z, w]
+        four(index, hash)
+    }
+
+    /// What `N` samplers each give by `D` calls of [`next4d`](Self::next4d): number `k` of draw `d` for sampler `i` is at
+    /// `[d][k][i]`.
+    ///
+    /// # Panics
+    /// If this processor lacks `isa`.
+    pub fn next4d_all<const D: usize, const N: usize>(samplers: &mut [Sampler; N], isa: Isa) -> [[[f32; N]; 4]; D] {
+        let mut out = [[[0.0; N]; 4]; D];
+        let mut state = State { pixel_seed: [0; N], reversed_index: [0; N], draw: [0; N] };
+        for (i, sampler) in samplers.iter_mut().enumerate() {
+            (state.pixel_seed[i], state.reversed_index[i]) = (sampler.pixel_seed, sampler.reversed_index);
+            state.draw[i] = sampler.draw;
+            sampler.draw = sampler.draw.wrapping_add(GOLDEN.wrapping_mul(D as u64));
+        }
+        draws(isa, &state, &mut out);
+        out
     }
 
     /// The index of the point that this sample takes in the next draw, and a hash of the draw.
     #[inline(always)]
     fn next_set(&mut self) -> (u32, u64) {
         self.draw = self.draw.wrapping_add(GOLDEN);
-        let hash = mix64(self.pixel_seed.wrapping_add(self.draw));
-        (reversed_owen(self.reversed_index, hash as u32).reverse_bits() >> 16, mix64(hash))
+        set(self.pixel_seed, self.reversed_index, self.draw)
     }
+}
+
+/// Samplers side by side.
+struct State<const N: usize> {
+    pixel_seed: [u64; N],
+    reversed_index: [u32; N],
+    draw: [u64; N],
+}
+
+impl<const N: usize> State<N> {
+    /// Without branches, so that the loop is vectorised.
+    #[inline(always)]
+    fn draws<const D: usize>(&self, out: &mut [[[f32; N]; 4]; D]) {
+        for d in 0..D {
+            for i in 0..N {
+                let draw = self.draw[i].wrapping_add(GOLDEN.wrapping_mul(d as u64 + 1));
+                let (index, hash) = set(self.pixel_seed[i], self.reversed_index[i], draw);
+                let u = four(index, hash);
+                for k in 0..4 {
+                    out[d][k][i] = u[k];
+                }
+            }
+        }
+    }
+}
+
+/// [`State::draws`] compiled for an instruction set.
+fn draws<const D: usize, const N: usize>(isa: Isa, state: &State<N>, out: &mut [[[f32; N]; 4]; D]) {
+    for_isa!(isa, State::draws, [const D: usize, const N: usize], state: &State<N>, out: &mut [[[f32; N]; 4]; D]);
+}
+
+/// The index of the point that a sample takes in a draw, and a hash of the draw.
+#[inline(always)]
+fn set(pixel_seed: u64, reversed_index: u32, draw: u64) -> (u32, u64) {
+    let hash = mix64(pixel_seed.wrapping_add(draw));
+    (reversed_owen(reversed_index, hash as u32).reverse_bits() >> 16, mix64(hash))
+}
+
+/// Four coordinates of a point.
+#[inline(always)]
+fn four(index: u32, hash: u64) -> [f32; 4] {
+    let [x, y] = scrambled([index, reversed_second(index)], hash);
+    let [z, w] = scrambled(reversed_third_and_fourth(index), mix64(hash));
+    [x, y, z, w]
 }
 
 /// 2^64 over the golden ratio, the step between draws (Steele, Lea & Flood, *Fast Splittable Pseudorandom Number
@@ -184,6 +243,31 @@ const fn direction_numbers(degree: usize, a: u32, m: [u32; 3]) -> [u32; 32] {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn samplers_side_by_side_give_what_each_gives_alone() {
+        for isa in Isa::ALL.into_iter().filter(|isa| isa.is_available()) {
+            let mut samplers: [Sampler; 16] = std::array::from_fn(|i| {
+                let mut sampler = Sampler::new(7);
+                sampler.start(31 * i as u32, 70_000 * i as u32);
+                (0..i).for_each(|_| sampler.draw = sampler.draw.wrapping_add(GOLDEN));
+                sampler
+            });
+            let mut alone = samplers;
+            for _ in 0..3 {
+                let u = Sampler::next4d_all::<2, 16>(&mut samplers, isa);
+                for (d, draw) in u.iter().enumerate() {
+                    for (i, sampler) in alone.iter_mut().enumerate() {
+                        assert_eq!(
+                            sampler.next4d(),
+                            std::array::from_fn(|k| draw[k][i]),
+                            "draw {d}, sampler {i}, {isa:?}"
+                        );
+                    }
+                }
+            }
+        }
+    }
 
     #[test]
     fn short_points_are_the_first_ones_of_the_sequence() {

@@ -1,7 +1,8 @@
 //! Rendering: tiles over threads, passes over samples, progress and interruption.
 
-use crate::path::{Limits, trace};
+use crate::path::Limits;
 use crate::split::SPLIT_NAMES;
+use crate::wave::{WAVE, Wave};
 use lesk_image::{Film, FilmSpec, FilmTile, ImageError, Sample, Tile};
 use lesk_math::CHANNELS;
 use lesk_math::sobol::Sampler;
@@ -157,28 +158,30 @@ fn next_target(done: u64, settings: &Settings, elapsed: Duration) -> u64 {
 /// Brings every pixel of a tile to `target` samples; returns how many were added.
 fn render_tile(scene: &Scene, settings: &Settings, tile: Tile, pixels: &mut FilmTile, target: u64) -> u64 {
     let render = &settings.render;
-    let limits = Limits::of(render);
     let layers: Vec<usize> = render.split.iter().filter_map(|name| layer(name)).collect();
     // both halves of the seed count
     let mut sampler = Sampler::new((render.seed ^ (render.seed >> 32).wrapping_mul(0x9e37_79b9)) as u32);
+    let mut wave = Wave::new(scene, Limits::of(render));
     let mut splits = vec![[0.0; 3]; layers.len()];
-    let mut added = 0;
-    for (x, y) in tile.pixels() {
-        for index in pixels.sample_count(x, y)..target {
-            sampler.start(y * scene.film.width + x, index as u32);
+    let missing = |(x, y)| (pixels.sample_count(x, y)..target).map(move |index| (x, y, index as u32));
+    let samples: Vec<(u32, u32, u32)> = tile.pixels().flat_map(missing).collect();
+    for samples in samples.chunks(WAVE) {
+        for &(x, y, index) in samples {
+            sampler.start(y * scene.film.width + x, index);
             let [u, v, lens_u, lens_v] = sampler.next4d();
             let [dx, dy] = scene.film.filter.sample([u, v]);
             let ray = scene.camera.ray([x as f32 + 0.5 + dx, y as f32 + 0.5 + dy], [lens_u, lens_v]);
-            let found = trace(scene, limits, ray, &mut sampler);
+            wave.add(ray, sampler);
+        }
+        for (&(x, y, _), found) in samples.iter().zip(wave.follow()) {
             for (split, &layer) in splits.iter_mut().zip(&layers) {
                 *split = rgb(found.splits[layer].0);
             }
             let aov = if render.aovs { found.aov } else { None };
             pixels.add(x, y, &Sample { radiance: rgb(found.radiance.0), splits: &splits, aov });
-            added += 1;
         }
     }
-    added
+    samples.len() as u64
 }
 
 fn rgb(c: [f32; CHANNELS]) -> [f32; 3] {

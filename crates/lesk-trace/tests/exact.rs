@@ -5,9 +5,10 @@ mod common;
 use common::{Parts, camera, material, settings};
 use lesk_geometry::{Geometry, Transform};
 use lesk_image::Film;
+use lesk_math::sobol::Sampler;
 use lesk_scene::Scene;
 use lesk_trace::checkpoint::{self, CheckpointError, Identity};
-use lesk_trace::{End, SPLIT_NAMES, Settings, film_for, render};
+use lesk_trace::{End, SPLIT_NAMES, Settings, film_for, radiance, render};
 use std::ops::ControlFlow;
 
 const SIZE: [u32; 2] = [40, 24];
@@ -49,6 +50,24 @@ fn picture_is_the_same_for_any_number_of_threads() {
     let one = with(1);
     assert_eq!(one, with(2));
     assert_eq!(one, with(5));
+}
+
+#[test]
+fn a_path_finds_alone_what_it_finds_among_others() {
+    let (scene, settings) = (scene(), settings(1, 6));
+    let film = whole(&scene, &settings);
+    let (mut sampler, mut lit) = (Sampler::new(settings.render.seed as u32), 0);
+    for (x, y) in (0..SIZE[1]).flat_map(|y| (0..SIZE[0]).map(move |x| (x, y))) {
+        sampler.start(y * SIZE[0] + x, 0);
+        let mut rest = sampler;
+        let [u, v, lens_u, lens_v] = rest.next4d();
+        let [dx, dy] = scene.film.filter.sample([u, v]);
+        let ray = scene.camera.ray([x as f32 + 0.5 + dx, y as f32 + 0.5 + dy], [lens_u, lens_v]);
+        let alone = radiance(&scene, &settings.render, ray, rest);
+        assert_eq!(film.mean(x, y), alone.map(f64::from), "pixel {x}, {y}");
+        lit += usize::from(alone[0] > 0.0);
+    }
+    assert!(lit > 300, "{lit} pixels show light");
 }
 
 #[test]

@@ -46,7 +46,7 @@ fn both(scene: &Scene, settings: &Settings) -> (Frame, Vec<[f32; 3]>, Vec<u32>) 
     for (x, y) in (0..SIZE[1]).flat_map(|y| (0..SIZE[0]).map(move |x| (x, y))) {
         let ray = traced.camera.ray([x as f32 + 0.5, y as f32 + 0.5], [0.5; 2]);
         sampler.start(y * SIZE[0] + x, 0);
-        light.push(lesk::trace::radiance(&traced, &traced.render, ray, &mut sampler));
+        light.push(lesk::trace::radiance(&traced, &traced.render, ray, sampler));
         faces.push(traced.world.intersect(&ray).map_or(0, |hit| 1 + hit.prim + (hit.instance << 24)));
     }
     (frame, light, faces)

@@ -87,7 +87,7 @@ fn a_bumpy_map_on_a_curved_mesh_equals_the_path_tracer() {
                 let ray = traced.camera.ray([(k % SIZE) as f32 + 0.5, (k / SIZE) as f32 + 0.5], [0.5; 2]);
                 traced.world.intersect(&ray)?;
                 sampler.start(k, 0);
-                let light = lesk::trace::radiance(&traced, &traced.render, ray, &mut sampler);
+                let light = lesk::trace::radiance(&traced, &traced.render, ray, sampler);
                 Some((f64::from(frame.rgb[3 * k as usize]), f64::from(light[0])))
             });
             let pixels: Vec<(f64, f64)> = pixels.collect();
@@ -174,7 +174,7 @@ fn tangents_of_a_file_count_in_both_engines() {
     let mut sampler = Sampler::new(1);
     sampler.start(0, 0);
     let ray = scene.camera.ray([60.5, 60.5], [0.5; 2]);
-    let light = lesk::trace::radiance(&scene, &scene.render, ray, &mut sampler);
+    let light = lesk::trace::radiance(&scene, &scene.render, ray, sampler);
     assert!(near(f64::from(light[0])), "path: {light:?} {expected}");
 }
 

@@ -49,7 +49,7 @@ fn pixels(terminator: &str, object: &str, faces: u32) -> Vec<Pixel> {
             continue;
         }
         sampler.start(y * SIZE + x, 0);
-        let light = lesk::trace::radiance(&traced, &traced.render, ray, &mut sampler);
+        let light = lesk::trace::radiance(&traced, &traced.render, ray, sampler);
         let to = Vec3::from(LAMP) - surface.p.map(f64::from);
         let cosine = surface.ns.map(f64::from).dot(to.normalize());
         out.push(Pixel {
@@ -127,7 +127,7 @@ fn the_inside_of_a_coarse_pipe_lets_no_light_through_its_wall() {
             inside += 1;
             let mut sampler = Sampler::new(1);
             sampler.start(y * SIZE + x, 0);
-            let light = lesk::trace::radiance(&traced, &traced.render, ray, &mut sampler);
+            let light = lesk::trace::radiance(&traced, &traced.render, ray, sampler);
             let shadow = lesk::geometry::Ray::between(surface.p - surface.ng * 1e-3, vec(LAMP));
             if traced.world.occluded(&shadow) {
                 assert_eq!(light[0], 0.0, "{terminator}: pixel {x}, {y}");

@@ -217,7 +217,6 @@ pub struct World {
     copies: Vec<(u32, u32)>,
     others: Vec<u32>,
     /// Available on this processor.
-    #[cfg_attr(not(target_arch = "x86_64"), allow(dead_code))] // elsewhere there is one loop
     isa: Isa,
 }
 
@@ -285,7 +284,7 @@ impl World {
     }
 
     /// The surface where `hit`, found along `ray`, lies.
-    #[inline]
+    #[inline(always)]
     pub fn surface(&self, ray: &Ray, hit: &Hit) -> Surface {
         let instance = &self.instances[hit.instance as usize];
         let (geometry, place) = (&self.geometries[instance.geometry as usize], &instance.place);
@@ -300,13 +299,27 @@ impl World {
 
     /// The corners of a triangle that was hit, in the space of its mesh: from the tree if they stand there, since its memory
     /// has just been read.
-    #[inline]
+    #[inline(always)]
     fn corners(&self, instance: &Instance, mesh: &Mesh, hit: &Hit) -> [Vec3<f32>; 3] {
         match &self.lower[instance.geometry as usize] {
             Some(tree) => tree.corners(hit.slot),
             None if instance.moved => mesh.corners(hit.prim as usize),
             None => self.upper.corners(hit.slot),
         }
+    }
+
+    /// The mesh of a hit and the corners of its triangle, where the mesh stands in the world as it is and has no texture
+    /// coordinates.
+    #[inline(always)]
+    pub(crate) fn plain_triangle(&self, hit: &Hit) -> Option<(&Mesh, [Vec3<f32>; 3])> {
+        let instance = &self.instances[hit.instance as usize];
+        let mesh = self.geometries[instance.geometry as usize].mesh()?;
+        (!instance.moved && mesh.uvs().is_empty()).then(|| (&**mesh, self.corners(instance, mesh, hit)))
+    }
+
+    /// The instruction set that it uses; this processor has it.
+    pub(crate) fn isa(&self) -> Isa {
+        self.isa
     }
 
     /// What normal maps and second texture coordinates need at a surface, as [`surface`](Self::surface) gave it.

@@ -1,10 +1,11 @@
 //! One sample of one reading: the lights asked directly, and a path for everything else.
 
-use crate::path::{Limits, power_heuristic, trace, trace_from};
+use crate::path::power_heuristic;
+use crate::wave::Wave;
 use lesk_geometry::{Ray, Surface};
 use lesk_light::Receiver;
 use lesk_math::sobol::Sampler;
-use lesk_math::{Frame, Vec3, warp};
+use lesk_math::{Color, Frame, Vec3, warp};
 use lesk_scene::Scene;
 use lesk_scene::sensor::{Probe, Reading, Response};
 use std::f32::consts::FRAC_1_PI;
@@ -119,37 +120,58 @@ impl Meter {
         Meter::Illuminance { surface, receiver, weights: Weights::new(response) }
     }
 
-    /// Direct light and all other light of one sample.
-    pub fn sample(&self, scene: &Scene, limits: Limits, sampler: &mut Sampler) -> [f64; 2] {
+    /// The direct and all other light of samples, added up; each sample has the random numbers of one sampler.
+    pub fn sum(&self, wave: &mut Wave, samplers: impl Iterator<Item = Sampler>) -> [f64; 2] {
+        let starts: Vec<Start> = samplers.map(|sampler| self.start(wave, sampler)).collect();
+        let found = wave.follow();
+        let mut sum = [0.0; 2];
+        for start in starts {
+            let (direct, all) = match start.path {
+                Some((number, weight)) => {
+                    let found = &found[number];
+                    let of = |light: Color<f32>| f64::from(light.luminance()) * weight;
+                    (start.asked + of(found.splits[0]), start.asked + of(found.radiance))
+                }
+                None => (start.asked, start.asked),
+            };
+            sum = [sum[0] + direct, sum[1] + (all - direct).max(0.0)];
+        }
+        sum
+    }
+
+    /// Begins a sample: asks the lights, and adds to the wave the path that looks for everything else.
+    fn start(&self, wave: &mut Wave, mut sampler: Sampler) -> Start {
+        let number = wave.len();
         match self {
-            Meter::Nothing => [0.0; 2],
+            Meter::Nothing => Start { asked: 0.0, path: None },
             Meter::Luminance { origin, frame, versine } => {
                 let local = match *versine > 0.0 {
                     true => warp::uniform_cone::sample(*versine, sampler.next2d()),
                     false => Vec3::Z,
                 };
-                let found = trace(scene, limits, Ray::new(*origin, frame.world_from_local(local)), sampler);
-                split(f64::from(found.splits[0].luminance()), f64::from(found.radiance.luminance()))
+                wave.add(Ray::new(*origin, frame.world_from_local(local)), sampler);
+                Start { asked: 0.0, path: Some((number, 1.0)) }
             }
             Meter::Illuminance { surface, receiver, weights } => {
-                let asked = ask_lights(scene, surface, receiver, weights, sampler);
+                let asked = ask_lights(wave.scene(), surface, receiver, weights, &mut sampler);
                 let (wi, pdf) = weights.draw(sampler.next2d());
                 let weight = f64::from(weights.weight(wi) / pdf);
                 if weight.is_nan() || pdf <= 0.0 {
-                    return [asked, 0.0];
+                    return Start { asked, path: None };
                 }
-                let found = trace_from(scene, limits, *receiver, Ray::leaving(surface, wi), pdf, sampler);
-                let direct = f64::from(found.splits[0].luminance()) * weight;
-                let all = f64::from(found.radiance.luminance()) * weight;
-                split(asked + direct, asked + all)
+                wave.add_from(*receiver, Ray::leaving(surface, wi), pdf, sampler);
+                Start { asked, path: Some((number, weight)) }
             }
         }
     }
 }
 
-/// Direct light, and the rest of all light.
-fn split(direct: f64, all: f64) -> [f64; 2] {
-    [direct, (all - direct).max(0.0)]
+/// A sample whose path waits to be followed.
+struct Start {
+    /// Light of the lights that were asked, lx.
+    asked: f64,
+    /// The number of the path in the wave, and how much of its light counts.
+    path: Option<(usize, f64)>,
 }
 
 /// Light of one light that was chosen for this sample.

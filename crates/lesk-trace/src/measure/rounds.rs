@@ -3,6 +3,7 @@
 use super::receiver::Meter;
 use super::{REPLICATES, Reading, Settings};
 use crate::render::End;
+use crate::wave::{WAVE, Wave};
 use lesk_math::sobol::Sampler;
 use lesk_scene::Scene;
 use lesk_scene::sensor::Probe;
@@ -105,8 +106,9 @@ impl<'a> Batch<'a> {
             if stop.load(Ordering::Relaxed) || late.load(Ordering::Relaxed) {
                 return;
             }
+            let mut wave = Wave::new(self.scene, self.settings.limits());
             for (sum, &(i, k)) in sums.iter_mut().zip(tasks) {
-                *sum = Some(self.sequence(i, k, most));
+                *sum = Some(self.sequence(i, k, most, &mut wave));
             }
             let done = done.fetch_add(tasks.len() as u64, Ordering::Relaxed) + tasks.len() as u64;
             let share = before + work * done as f64 / (active.len() * REPLICATES) as f64;
@@ -136,14 +138,18 @@ impl<'a> Batch<'a> {
     }
 
     /// What one round adds to sequence `k` of reading `i`.
-    fn sequence(&self, i: usize, k: usize, most: u32) -> [f64; 2] {
+    fn sequence(&self, i: usize, k: usize, most: u32, wave: &mut Wave) -> [f64; 2] {
         let (settings, state) = (self.settings, &self.meters[i]);
         let mut sampler = Sampler::new((settings.seed ^ (settings.seed >> 32).wrapping_mul(0x9e37_79b9)) as u32);
         let number = (self.first + i as u32).wrapping_mul(REPLICATES as u32) + k as u32;
+        let indices: Vec<u32> = (state.count..next_count(state.count, most)).collect();
         let mut sum = [0.0; 2];
-        for index in state.count..next_count(state.count, most) {
-            sampler.start(number, index + first_index(k));
-            let [direct, other] = state.meter.sample(self.scene, settings.limits(), &mut sampler);
+        for indices in indices.chunks(WAVE) {
+            let samplers = indices.iter().map(|index| {
+                sampler.start(number, index + first_index(k));
+                sampler
+            });
+            let [direct, other] = state.meter.sum(wave, samplers);
             sum = [sum[0] + direct, sum[1] + other];
         }
         sum
