@@ -165,11 +165,8 @@ impl<const FMA: bool, B: Bsdf<Lane<FMA>>> Body<FMA, B> for EvalPdf {
     const FIRST_IS_DIRECTION: bool = true;
     #[inline(always)]
     fn run(domain: Domain, model: &B, wi: Vec3<Lane<FMA>>, wo: Vec3<Lane<FMA>>, i: usize, out: &mut [Group]) {
-        let f = bsdf::eval(domain, model, wi, wo);
-        for c in 0..CHANNELS {
-            out[c][i] = f.0[c].0;
-        }
-        out[CHANNELS][i] = bsdf::pdf(domain, model, wi, wo).0;
+        Eval::run(domain, model, wi, wo, i, out);
+        Pdf::run(domain, model, wi, wo, i, &mut out[CHANNELS..]);
     }
 }
 

@@ -4,8 +4,8 @@ mod common;
 
 use common::{Random, model, narrow};
 use lesk_bsdf::batch::{self, Column, Target};
-use lesk_bsdf::kernels::DRAW_OUTPUTS;
-use lesk_bsdf::{Scatter, params};
+use lesk_bsdf::kernels::{DRAW_OUTPUTS, EVAL_PDF_OUTPUTS};
+use lesk_bsdf::{Scatter, params, registry};
 use lesk_math::{CHANNELS, Isa};
 
 /// Directions that differ; longer batches repeat them. A prime, so that each meets every place of a group.
@@ -38,6 +38,10 @@ impl Inputs {
             planes: [0, 1, 2].map(|c| all().map(|v| v[c]).collect()),
             spread: all().flat_map(|v| [v[0], v[1], v[2], f32::NAN]).collect(),
         }
+    }
+
+    fn rows(&self) -> [&[f32]; 3] {
+        self.planes.each_ref().map(|plane| &plane[..])
     }
 
     fn columns(&self, layout: Layout) -> [Column<'_>; 3] {
@@ -178,6 +182,41 @@ fn every_direction_that_is_not_of_unit_length_is_counted() {
                 assert_eq!(counted(wi, wo, &mut pdf), count, "wi, {} {n} {layout:?}", isa.name());
                 assert_eq!(counted(wo, wi, &mut pdf), count, "wo, {} {n} {layout:?}", isa.name());
             }
+        }
+    }
+}
+
+#[test]
+fn rows_with_parameters_of_their_own_give_the_bits_of_the_batches() {
+    let mut random = Random::new(5);
+    let n = 37;
+    for model in registry::all() {
+        let defaults: Vec<f32> = params::defaults(model.specs()).iter().map(|&v| v as f32).collect();
+        let table: Vec<Vec<f32>> =
+            defaults.iter().map(|&v| (0..n).map(|i| v * (1.0 - 1e-3 * i as f32)).collect()).collect();
+        let table: Vec<&[f32]> = table.iter().map(Vec::as_slice).collect();
+        let columns: Vec<Column> = table.iter().map(|row| Column::contiguous(row)).collect();
+        let [wi, wo] = [(); 2].map(|()| Inputs::new(&vectors(&mut random, model), n));
+        let u = Inputs::new(&(0..n).map(|_| random.unit3_f32()).collect::<Vec<_>>(), n);
+        for isa in Isa::ALL.into_iter().filter(|isa| isa.is_available()) {
+            let mut out: [Vec<f32>; EVAL_PDF_OUTPUTS] = std::array::from_fn(|_| vec![0.0; n]);
+            let input = batch::Rows { params: &table, first: wi.rows(), wo: wo.rows() };
+            batch::eval_pdf_rows(model, isa, input, out.each_mut().map(|row| &mut row[..]));
+            let mut expected: [Vec<f32>; EVAL_PDF_OUTPUTS] = std::array::from_fn(|_| vec![0.0; n]);
+            let (f, pdf) = expected.split_at_mut(CHANNELS);
+            let (first, second) = (wi.columns(Layout::Planes), wo.columns(Layout::Planes));
+            let mut targets: Vec<Target> = f.iter_mut().map(|row| Target::Row(row)).collect();
+            batch::eval(model, isa, &columns, first, second, n, &mut targets);
+            batch::pdf(model, isa, &columns, first, second, n, &mut [Target::Row(&mut pdf[0])]);
+            assert_eq!(out, expected, "{} {isa:?}", model.id());
+
+            let mut out: [Vec<f32>; DRAW_OUTPUTS] = std::array::from_fn(|_| vec![0.0; n]);
+            let input = batch::Rows { params: &table, first: u.rows(), wo: wo.rows() };
+            batch::draw_rows(model, isa, input, out.each_mut().map(|row| &mut row[..]));
+            let mut expected: [Vec<f32>; DRAW_OUTPUTS] = std::array::from_fn(|_| vec![0.0; n]);
+            let mut targets: Vec<Target> = expected.iter_mut().map(|row| Target::Row(row)).collect();
+            batch::draw(model, isa, &columns, u.columns(Layout::Planes), second, n, &mut targets);
+            assert_eq!(out, expected, "{} {isa:?}", model.id());
         }
     }
 }

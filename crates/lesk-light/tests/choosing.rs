@@ -1,8 +1,9 @@
 //! Choosing one of many lights: probabilities, and agreement of sampling and density.
 
+use lesk_geometry::surfaces::{SURFACES, vector};
 use lesk_geometry::{Geometry, Ray, Transform, WorldBuilder, icosphere};
-use lesk_light::{Area, Directional, Light, Lights, Point, Receiver, Sky, Spot};
-use lesk_math::{Color, Vec3, vec3};
+use lesk_light::{Answer, Area, Directional, FarRectangles, Light, Lights, Point, Receiver, Sky, Spot, Target};
+use lesk_math::{Color, Isa, Vec3, vec3};
 use proptest::prelude::*;
 use std::f64::consts::PI;
 use std::sync::Arc;
@@ -312,4 +313,39 @@ fn near_and_distant_lights_share_choices_by_what_they_give_here() {
     // below the horizon of the surface the lamp gives nothing, and takes no choices
     let below = Receiver::opaque(Vec3::ZERO, -Vec3::Z);
     assert_eq!((lights.pmf(&below, 0, 0), lights.pmf(&below, 1, 0)), (1.0, 0.0));
+}
+
+#[test]
+fn rectangles_noted_together_are_sampled_as_each_alone() {
+    let lights = Lights::new(mixed(100, 3)).unwrap();
+    let (mut r, mut noted, mut lit) = (Numbers(11), 0, 0);
+    for isa in Isa::ALL.into_iter().filter(|isa| isa.is_available()) {
+        for _ in 0..100 {
+            let mut far = FarRectangles::default();
+            let asked: [_; SURFACES] = std::array::from_fn(|_| {
+                (Receiver::opaque(r.point(5.0), r.direction()), r.next(), [r.next(), r.next()])
+            });
+            let answers = std::array::from_fn::<_, SURFACES, _>(|i| {
+                let (at, u_light, u) = &asked[i];
+                lights.sample_or_note(at, *u_light, *u, i, &mut far)
+            });
+            far.sample(isa);
+            for (i, ((at, u_light, u), answer)) in asked.iter().zip(answers).enumerate() {
+                let alone = lights.sample(at, *u_light, *u);
+                match (answer, alone) {
+                    (Some(Answer::Noted), Some(alone)) => {
+                        let Target::Surface(target) = alone.target else { panic!("a rectangle has a surface") };
+                        assert_eq!((vector(&far.wi, i), far.pdf[i]), (alone.wi, alone.pdf), "{isa:?}");
+                        assert_eq!((vector(&far.p, i), vector(&far.n, i)), (target.p, target.n), "{isa:?}");
+                        assert_eq!((far.value.map(|row| row[i]), far.lift[i]), (alone.value.0, target.lift), "{isa:?}");
+                        lit += 1;
+                    }
+                    (Some(Answer::Noted), None) => assert_eq!(far.pdf[i], 0.0, "{isa:?}"),
+                    (answer, alone) => assert_eq!(format!("{answer:?}"), format!("{:?}", alone.map(Answer::Sample))),
+                }
+                noted += usize::from(matches!(answer, Some(Answer::Noted)));
+            }
+        }
+    }
+    assert!(lit > 100 && noted > lit, "{lit} of {noted} noted rectangles shine on their receivers");
 }

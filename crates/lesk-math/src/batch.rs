@@ -208,6 +208,15 @@ impl Isa {
 /// If this processor lacks the instruction set.
 #[macro_export]
 macro_rules! for_isa {
+    // the instruction set is available
+    (@with $features:literal, $function:expr, [$($generics:tt)*], $($argument:ident: $Type:ty),+) => {{
+        #[target_feature(enable = $features)]
+        fn enabled<$($generics)*>($($argument: $Type),+) {
+            $function($($argument),+)
+        }
+        // SAFETY: the caller of this rule has checked it
+        unsafe { enabled($($argument),+) }
+    }};
     ($isa:expr, $function:expr, $($argument:ident: $Type:ty),+) => {
         $crate::for_isa!($isa, $function, [], $($argument: $Type),+)
     };
@@ -216,23 +225,11 @@ macro_rules! for_isa {
         assert!(isa.is_available(), "this processor lacks {}", isa.name());
         match isa {
             #[cfg(target_arch = "x86_64")]
-            $crate::Isa::Avx512 => {
-                #[target_feature(enable = "avx2,avx512f,avx512vl,avx512bw,avx512dq")]
-                fn avx512<$($generics)*>($($argument: $Type),+) {
-                    $function($($argument),+)
-                }
-                // SAFETY: it is available
-                unsafe { avx512($($argument),+) }
-            }
+            $crate::Isa::Avx512 => $crate::for_isa!(
+                @with "avx2,avx512f,avx512vl,avx512bw,avx512dq", $function, [$($generics)*], $($argument: $Type),+
+            ),
             #[cfg(target_arch = "x86_64")]
-            $crate::Isa::Avx2 => {
-                #[target_feature(enable = "avx2")]
-                fn avx2<$($generics)*>($($argument: $Type),+) {
-                    $function($($argument),+)
-                }
-                // SAFETY: it is available
-                unsafe { avx2($($argument),+) }
-            }
+            $crate::Isa::Avx2 => $crate::for_isa!(@with "avx2", $function, [$($generics)*], $($argument: $Type),+),
             _ => $function($($argument),+),
         }
     }};

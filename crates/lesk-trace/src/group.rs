@@ -14,12 +14,11 @@ use lesk_scene::{Material, Scene};
 
 /// Vertices of paths, up to [`SURFACES`] of them.
 #[derive(Default)]
-pub(crate) struct Group<'a> {
+pub(crate) struct Group {
     /// The vertices that scatter: bit i for place i.
     pub alive: u32,
     /// The place of each path in the wave.
     pub path: [u32; SURFACES],
-    pub material: [Option<&'a Material>; SURFACES],
     /// The number of each material in the scene.
     pub number: [u32; SURFACES],
     /// The place among the vertices with the same model.
@@ -40,7 +39,7 @@ pub(crate) struct Group<'a> {
     /// Tangents of the frame around the shading normal.
     t: VectorRows,
     b: VectorRows,
-    /// Refractive index; 1 without one.
+    /// Refractive index of surfaces that bound a body, else 1.
     ior: Row,
     /// Whether anything but delta lobes scatters: only then light is asked for.
     rough: [bool; SURFACES],
@@ -71,7 +70,7 @@ pub(crate) struct Asked {
     t_max: Row,
 }
 
-impl<'a> Group<'a> {
+impl Group {
     /// Takes the next surfaces.
     pub fn start(&mut self, scene: &Scene, rays: &[Ray], hits: &[Hit]) {
         self.alive = 0;
@@ -81,9 +80,9 @@ impl<'a> Group<'a> {
 
     /// The material of a place, as seen from `wo`; gives texture coordinates of both sets.
     #[inline]
-    pub fn set_material(&mut self, i: usize, scene: &'a Scene, number: u32, wo: Vec3<f32>) -> [[f32; 2]; 2] {
+    pub fn set_material(&mut self, i: usize, scene: &Scene, number: u32, wo: Vec3<f32>) -> [[f32; 2]; 2] {
         let material = &scene.materials[number as usize];
-        (self.material[i], self.number[i]) = (Some(material), number);
+        self.number[i] = number;
         self.alive |= 1 << i;
         set_vector(&mut self.wo, i, wo);
         self.opaque[i] = u32::from(material.domain() == Domain::Upper);
@@ -146,7 +145,8 @@ impl<'a> Group<'a> {
     /// What the parameters say about a vertex.
     #[inline]
     pub fn set_params(&mut self, i: usize, material: &Material, params: &[f32]) {
-        self.ior[i] = material.ior_entry().map_or(1.0, |entry| params[entry]);
+        let bounds_body = material.domain() == Domain::BothSides;
+        self.ior[i] = material.ior_entry().filter(|_| bounds_body).map_or(1.0, |entry| params[entry]);
         self.rough[i] = !material.may_be_delta() || has_continuous_part(material, params, vector(&self.wo, i));
     }
 
@@ -320,8 +320,7 @@ impl<'a> Group<'a> {
     pub fn eta_scale(&self, i: usize) -> f32 {
         let is_outside = self.wo[2][i] > 0.0;
         let passes = vector(&self.surfaces.ns, i).dot(vector(&self.wi, i)) * self.wo[2][i] <= 0.0;
-        let has_inside = self.material[i].is_some_and(|material| material.domain() == Domain::BothSides);
-        if !(has_inside && passes) {
+        if !passes {
             return 1.0;
         }
         let eta = if is_outside { self.ior[i] } else { 1.0 / self.ior[i] };

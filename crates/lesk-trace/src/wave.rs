@@ -26,7 +26,7 @@ pub(crate) struct Wave<'a> {
     rays: Vec<Ray>,
     hits: Vec<Option<Hit>>,
     /// Where paths go on; the first `used` are those of this bounce.
-    groups: Vec<Group<'a>>,
+    groups: Vec<Group>,
     used: usize,
     lobes: Lobes,
     far: FarRectangles,
