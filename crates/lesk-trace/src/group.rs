@@ -359,3 +359,33 @@ fn has_continuous_part(material: &Material, params: &[f32], wo: Vec3<f32>) -> bo
     let lobes = material.model().delta(params, wo);
     lobes.is_none_or(|[a, b]| a.probability + b.probability < 1.0)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use lesk_bsdf::registry::find;
+
+    #[test]
+    fn what_glass_does_to_radiance_is_undone_for_the_roulette() {
+        let glass = find("dielectric").unwrap();
+        let material = Material::new("glass", glass, &[1.5], false);
+        let mut group = Group::default();
+        for side in [1.0, -1.0] {
+            let wo = vec3(0.0, 0.6, 0.8 * side);
+            set_vector(&mut group.wo, 0, wo);
+            set_vector(&mut group.surfaces.ns, 0, Vec3::Z);
+            group.set_params(0, &material, &[1.5]);
+            let mut passed = 0;
+            for i in 0..100 {
+                let drawn = glass.draw(&[1.5], wo, [0.5, 0.5, (i as f32 + 0.5) / 100.0]);
+                set_vector(&mut group.wi, 0, drawn.wi);
+                // smooth glass absorbs nothing: the weight is the probability over itself, times the change of radiance
+                let undone = drawn.weight.0[0] * group.eta_scale(0);
+                assert!((undone - 1.0).abs() < 1e-5, "{side} {i}: {undone}");
+                passed += usize::from(drawn.wi.z * side < 0.0);
+            }
+            // from within, 37 degrees still pass
+            assert!(passed > 50, "{passed} of 100 draws pass");
+        }
+    }
+}
