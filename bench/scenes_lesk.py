@@ -41,7 +41,7 @@ def write(scene: Scene, folder: Path, size: int) -> Path:
     lines = ["version = 1", f'film = {{ size = [{size}, {size}], filter = "box" }}']
     lines.append(f'camera = {{ eye = {list(eye)}, target = {list(target)}, up = [0, 1, 0], fov = "{fov} deg" }}')
     # depth counts segments, Lesk counts scattering events
-    lines.append(f"render = {{ max_depth = {scene.depth - 1}, roulette_depth = 5 }}")
+    lines.append(f"render = {{ max_depth = {scene.depth - 1} }}")
     objects = []
     for name, positions, triangles, normals, m in scene.objects:
         write_ply(folder / f"{name}.ply", positions, triangles, normals)

@@ -56,7 +56,7 @@ mod terminator;
 mod transform;
 
 pub use bounds::Bounds;
-pub use bvh::{World, WorldBuilder};
+pub use bvh::{Caster, World, WorldBuilder};
 pub use detail::Detail;
 pub use error::{Error, Result};
 pub use mesh::{MAX_COORDINATE, Mesh, MeshData, Repairs};

@@ -88,22 +88,21 @@ impl World {
     ///
     /// # Panics
     /// If there are more hits.
-    pub fn surfaces(&self, rays: &[Ray], hits: &[Hit], out: &mut Surfaces) {
-        assert!(hits.len() <= SURFACES && rays.len() == hits.len(), "{} hits of {} rays", hits.len(), rays.len());
+    pub fn surfaces<'a>(&self, hits: impl Iterator<Item = (&'a Ray, &'a Hit)>, out: &mut Surfaces) {
         let triangles = &mut Triangles::default();
-        let mut others = 0u32;
-        for (i, hit) in hits.iter().enumerate() {
+        let mut others = [None; SURFACES];
+        for (i, (ray, hit)) in hits.enumerate() {
             match self.plain_triangle(hit) {
                 Some((mesh, corners)) => triangles.set(i, mesh, &corners, hit),
-                None => others |= 1 << i,
+                None => others[i] = Some((ray, hit)),
             }
             (out.instance[i], out.prim[i]) = (hit.instance, hit.prim);
         }
         for_isa!(self.isa(), Triangles::surfaces, triangles: &Triangles, out: &mut Surfaces);
-        while others != 0 {
-            let i = others.trailing_zeros() as usize;
-            others &= others - 1;
-            out.set(i, &self.surface(&rays[i], &hits[i]));
+        for (i, other) in others.iter().enumerate() {
+            if let Some((ray, hit)) = other {
+                out.set(i, &self.surface(ray, hit));
+            }
         }
     }
 }
@@ -189,9 +188,8 @@ mod tests {
                 (0..2000).map(ray).filter_map(|ray| world.intersect(&ray).map(|hit| (ray, hit))).collect();
             assert!(all.len() > 400, "{} hits", all.len());
             for group in all.chunks(SURFACES).chain(all.chunks(7)) {
-                let (rays, hits): (Vec<Ray>, Vec<Hit>) = group.iter().copied().unzip();
                 let mut out = Surfaces::default();
-                world.surfaces(&rays, &hits, &mut out);
+                world.surfaces(group.iter().map(|(ray, hit)| (ray, hit)), &mut out);
                 for (i, (ray, hit)) in group.iter().enumerate() {
                     let alone = world.surface(ray, hit);
                     assert_eq!(format!("{:?}", out.get(i)), format!("{alone:?}"), "{isa:?}");

@@ -340,11 +340,91 @@ fn directions_of_any_length_hit_and_t_counts_in_that_length() {
     }
 }
 
+/// Meshes in the world tree and in trees of their own, of which two coincide exactly; curved shapes; some of both at equal
+/// distances from rays along z.
+fn world_of_all_kinds(isa: Isa) -> World {
+    let mut b = WorldBuilder::new().isa(isa);
+    let alone = b.geometry(Geometry::Mesh(Arc::new(soup(3000, 0.1, 5))));
+    let shared = b.geometry(Geometry::Mesh(Arc::new(soup(500, 0.2, 6))));
+    let (cube, sphere, disk) = (b.geometry(Geometry::cube()), b.geometry(Geometry::Sphere), b.geometry(Geometry::Disk));
+    b.instance(alone, Transform::IDENTITY).unwrap();
+    for place in [Transform::rotate_x(1.0), Transform::rotate_x(1.0), Transform::translate(0.5, 0.0, 0.0)] {
+        b.instance(shared, place).unwrap();
+    }
+    b.instance(sphere, Transform::scale(0.2, 0.3, 0.4).unwrap()).unwrap();
+    for geometry in [disk, disk, cube, sphere] {
+        b.instance(geometry, Transform::translate(0.0, 0.0, -2.0)).unwrap();
+    }
+    b.build().unwrap()
+}
+
+/// Rays of all kinds, some of them none.
+fn rays_of_all_kinds(count: usize) -> Vec<Ray> {
+    let mut r = Random(3);
+    let ray = |i: usize| {
+        let mut ray = Ray::new(r.vector() * 1.5, r.direction() * 3.0);
+        match i % 16 {
+            0 => ray.d.x = f32::NAN,
+            1 => ray.o.y = f32::INFINITY,
+            2 => ray.d = Vec3::ZERO,
+            3 => (ray.t_min, ray.t_max) = (2.0, 1.0),
+            4 => ray.t_max = f32::NAN,
+            5 | 6 => (ray.t_min, ray.t_max) = (0.1, 0.3),
+            // straight at a cube of side 2, a sphere and two disks around (0, 0, -2)
+            7 | 8 => ray = Ray::new(vec3(0.0, 0.0, 9.0), -Vec3::Z),
+            9 => ray.d = vec3(0.0, -0.0, 1.0),
+            _ => {}
+        }
+        ray
+    };
+    (0..count).map(ray).collect()
+}
+
+#[test]
+fn many_rays_at_once_meet_what_each_meets_alone() {
+    for isa in available() {
+        let world = world_of_all_kinds(isa);
+        let (mut caster, mut hits, mut occluded) = (Caster::default(), vec![], vec![]);
+        // every filling of the last group; the room is used again
+        for count in (0..200).chain([20_000]) {
+            let rays = rays_of_all_kinds(count);
+            world.intersect_all(&rays, &mut caster, &mut hits);
+            world.occluded_all(&rays, &mut caster, &mut occluded);
+            assert_eq!((hits.len(), occluded.len()), (count, count));
+            for (i, ray) in rays.iter().enumerate() {
+                assert_eq!(hits[i], world.intersect(ray), "{isa:?}, {ray:?}");
+                assert_eq!(occluded[i], world.occluded(ray), "{isa:?}, {ray:?}");
+            }
+        }
+        let met = hits.iter().flatten();
+        let instances: std::collections::BTreeSet<u32> = met.map(|hit| hit.instance).collect();
+        assert!(instances.len() >= 7, "only instances {instances:?} are met");
+    }
+}
+
+#[test]
+fn hits_at_the_end_of_many_rays_do_not_count() {
+    for isa in available() {
+        let corners = vec![vec3(0.0, 0.0, -1.0), vec3(1.0, 0.0, -1.0), vec3(0.0, 1.0, -1.0)];
+        let one = MeshData { positions: corners, triangles: vec![[0, 1, 2]], ..MeshData::default() };
+        let world = world_of(Geometry::Mesh(Arc::new(Mesh::new(one).unwrap().0)), Transform::IDENTITY, isa);
+        let (mut caster, mut hits, mut occluded) = (Caster::default(), vec![], vec![]);
+        let ray = |t_max| Ray { t_max, ..Ray::new(vec3(0.2, 0.3, -3.0), Vec3::Z) };
+        world.intersect_all(&[ray(2.0), ray(2.0f32.next_up())], &mut caster, &mut hits);
+        world.occluded_all(&[ray(2.0), ray(2.0f32.next_up())], &mut caster, &mut occluded);
+        assert_eq!(hits.iter().map(|hit| hit.map(|hit| hit.t)).collect::<Vec<_>>(), [None, Some(2.0)]);
+        assert_eq!(occluded, [false, true]);
+    }
+}
+
 #[test]
 fn an_empty_world_has_no_hits() {
     let world = WorldBuilder::new().build().unwrap();
     let ray = Ray::new(Vec3::ZERO, Vec3::Z);
     assert!(world.intersect(&ray).is_none() && !world.occluded(&ray));
+    let mut hits = vec![];
+    world.intersect_all(&[ray; 3], &mut Caster::default(), &mut hits);
+    assert_eq!(hits, [None; 3]);
     assert!(world.bounds().is_empty());
     let mut b = WorldBuilder::new();
     b.geometry(Geometry::cube());
@@ -369,5 +449,8 @@ fn ten_thousand_equal_triangles_and_nested_scales_build_and_answer() {
         let hit = world.intersect(&Ray::new(vec3(0.2, 0.2, 1.0), vec3(0.0, 0.0, -1.0))).unwrap();
         // of equal distances, the lowest number
         assert_eq!((hit.t, hit.prim), (1.0, 0));
+        let mut hits = vec![];
+        world.intersect_all(&[Ray::new(vec3(0.2, 0.2, 1.0), -Vec3::Z)], &mut Caster::default(), &mut hits);
+        assert_eq!(hits, [Some(hit)]);
     }
 }

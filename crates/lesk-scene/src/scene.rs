@@ -90,7 +90,7 @@ impl Default for RenderSettings {
         RenderSettings {
             spp: 64,
             max_depth: 16,
-            roulette_depth: 4,
+            roulette_depth: 3,
             seed: 0,
             split: Vec::new(),
             aovs: false,

@@ -72,9 +72,9 @@ pub(crate) struct Asked {
 
 impl Group {
     /// Takes the next surfaces.
-    pub fn start(&mut self, scene: &Scene, rays: &[Ray], hits: &[Hit]) {
+    pub fn start<'a>(&mut self, scene: &Scene, hits: impl Iterator<Item = (&'a Ray, &'a Hit)>) {
         self.alive = 0;
-        scene.world.surfaces(rays, hits, &mut self.surfaces);
+        scene.world.surfaces(hits, &mut self.surfaces);
         self.side = self.surfaces.ns;
     }
 

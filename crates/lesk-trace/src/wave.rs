@@ -7,10 +7,10 @@ use crate::group::{Group, places};
 use crate::lobes::Lobes;
 use crate::path::{Found, Last, Limits, Path, power_heuristic};
 use lesk_geometry::surfaces::{SURFACES, set_vector, vector};
-use lesk_geometry::{Hit, Ray};
+use lesk_geometry::{Caster, Hit, Ray};
 use lesk_light::{FarRectangles, Receiver};
 use lesk_math::sobol::Sampler;
-use lesk_math::{Color, Isa, Vec3};
+use lesk_math::{Color, Isa};
 use lesk_scene::{MAX_PARAMS, Scene};
 
 /// How many paths it pays to follow together.
@@ -22,26 +22,18 @@ pub(crate) struct Wave<'a> {
     limits: Limits,
     isa: Isa,
     paths: Vec<Path>,
-    /// Where each path goes next.
+    /// Where the paths that go on go next, and their places in `paths`.
     rays: Vec<Ray>,
+    of: Vec<u32>,
     hits: Vec<Option<Hit>>,
+    caster: Caster,
     /// Where paths go on; the first `used` are those of this bounce.
     groups: Vec<Group>,
     used: usize,
     lobes: Lobes,
     far: FarRectangles,
     shadows: Shadows,
-    /// The paths that go on.
-    next: Vec<Path>,
     found: Vec<Found>,
-}
-
-/// Rays that hit something, and the places of their paths.
-struct Arrivals {
-    len: usize,
-    paths: [u32; SURFACES],
-    rays: [Ray; SURFACES],
-    hits: [Hit; SURFACES],
 }
 
 /// Light that arrives unless something stands in its way.
@@ -50,6 +42,7 @@ struct Shadows {
     rays: Vec<Ray>,
     /// The place of the path that asked, and the light.
     light: Vec<(u32, Color<f32>)>,
+    occluded: Vec<bool>,
 }
 
 impl<'a> Wave<'a> {
@@ -60,13 +53,14 @@ impl<'a> Wave<'a> {
             isa: Isa::current(),
             paths: Vec::new(),
             rays: Vec::new(),
+            of: Vec::new(),
             hits: Vec::new(),
+            caster: Caster::default(),
             groups: Vec::new(),
             used: 0,
             lobes: Lobes::new(&scene.materials),
             far: FarRectangles::default(),
             shadows: Shadows::default(),
-            next: Vec::new(),
             found: Vec::new(),
         }
     }
@@ -83,17 +77,18 @@ impl<'a> Wave<'a> {
     /// Adds a path from the camera, with the random numbers that `sampler` gives from here on.
     pub fn add(&mut self, ray: Ray, sampler: Sampler) {
         let last = Last { receiver: Receiver::anywhere(ray.o), pdf: 0.0, only: true };
-        self.push(Path::camera(self.len(), last, sampler), ray);
+        self.push(Path::camera(last, sampler), ray);
     }
 
     /// Adds a path that left a receiver of light along `ray`, drawn with the density `pdf` in 1/sr. The receiver asks the
     /// lights itself; what the ray finds of them is weighed against that.
     pub fn add_from(&mut self, receiver: Receiver, ray: Ray, pdf: f32, sampler: Sampler) {
         let last = Last { receiver, pdf, only: false };
-        self.push(Path::receiver(self.len(), last, sampler), ray);
+        self.push(Path::receiver(last, sampler), ray);
     }
 
     fn push(&mut self, path: Path, ray: Ray) {
+        self.of.push(self.paths.len() as u32);
         self.paths.push(path);
         self.rays.push(ray);
     }
@@ -103,15 +98,15 @@ impl<'a> Wave<'a> {
         self.found.clear();
         self.found.resize(self.paths.len(), Found::NOTHING);
         for bounce in 0.. {
-            if self.paths.is_empty() {
+            if self.rays.is_empty() {
                 break;
             }
-            self.hits.clear();
-            self.hits.extend(self.rays.iter().map(|ray| self.scene.world.intersect(ray)));
+            self.scene.world.intersect_all(&self.rays, &mut self.caster, &mut self.hits);
             self.arrive(bounce);
             self.ask_lights();
             self.go_on(bounce);
         }
+        self.paths.clear();
         &self.found
     }
 
@@ -120,44 +115,46 @@ impl<'a> Wave<'a> {
         self.used = 0;
         self.lobes.clear();
         let ends = bounce > 0 && bounce >= self.limits.max_depth;
-        let mut arrivals = Arrivals::default();
-        for i in 0..self.paths.len() {
-            let (path, ray) = (&self.paths[i], &self.rays[i]);
+        let mut which = [0; SURFACES];
+        let mut count = 0;
+        for i in 0..self.rays.len() {
             let Some(hit) = &self.hits[i] else {
-                path.add_background(self.scene, ray.d, &mut self.found[path.number as usize]);
+                let path = self.of[i] as usize;
+                self.paths[path].add_background(self.scene, self.rays[i].d, &mut self.found[path]);
                 continue;
             };
             if ends && self.scene.objects[hit.instance as usize].light.is_none() {
                 continue;
             }
-            arrivals.add(i, *ray, *hit);
-            if arrivals.len == SURFACES {
-                self.settle(bounce, &arrivals);
-                arrivals.len = 0;
+            which[count] = i as u32;
+            count += 1;
+            if count == SURFACES {
+                self.settle(bounce, &which);
+                count = 0;
             }
         }
-        if arrivals.len > 0 {
-            self.settle(bounce, &arrivals);
+        if count > 0 {
+            self.settle(bounce, &which[..count]);
         }
     }
 
     /// The same for a group of rays that hit something.
-    fn settle(&mut self, bounce: u32, arrivals: &Arrivals) {
+    fn settle(&mut self, bounce: u32, which: &[u32]) {
         if self.used == self.groups.len() {
             self.groups.push(Group::default());
         }
         let (scene, group) = (self.scene, &mut self.groups[self.used]);
-        let (rays, hits) = (&arrivals.rays[..arrivals.len], &arrivals.hits[..arrivals.len]);
-        group.start(scene, rays, hits);
-        group.path = arrivals.paths;
+        let (rays, hits) = (&self.rays, &self.hits);
+        let met = which.iter().filter_map(|&i| Some((&rays[i as usize], hits[i as usize].as_ref()?)));
+        group.start(scene, met.clone());
         let is_last = bounce >= self.limits.max_depth;
         let mut uvs = [[[0.0; 2]; 2]; SURFACES];
-        for (i, (ray, hit)) in rays.iter().zip(hits).enumerate() {
+        for (i, (ray, hit)) in met.clone().enumerate() {
+            group.path[i] = self.of[which[i] as usize];
             let object = &scene.objects[hit.instance as usize];
             if let Some(light) = object.light {
-                let path = &self.paths[group.path[i] as usize];
-                let found = &mut self.found[path.number as usize];
-                path.add_emission(scene, light, &group.surfaces.get(i), -ray.d, found);
+                let path = group.path[i] as usize;
+                self.paths[path].add_emission(scene, light, &group.surfaces.get(i), -ray.d, &mut self.found[path]);
             }
             if let Some(number) = object.material.filter(|_| !is_last || bounce == 0) {
                 uvs[i] = group.set_material(i, scene, number, -ray.d);
@@ -167,7 +164,10 @@ impl<'a> Wave<'a> {
             return;
         }
         group.turn(self.isa);
-        for i in places(group.alive) {
+        for (i, (ray, hit)) in met.enumerate() {
+            if group.alive >> i & 1 == 0 {
+                continue;
+            }
             let material = &scene.materials[group.number[i] as usize];
             if group.is_black(i, material) {
                 group.alive &= !(1 << i);
@@ -176,10 +176,9 @@ impl<'a> Wave<'a> {
             let mut table = [0.0; MAX_PARAMS];
             let params = material.params_at(uvs[i], &mut table);
             group.set_params(i, material, params);
-            group.set_origin(i, scene, &hits[i], self.limits.raises);
+            group.set_origin(i, scene, hit, self.limits.raises);
             if bounce == 0 {
-                let path = &self.paths[group.path[i] as usize];
-                self.found[path.number as usize].aov = Some(group.aov(i, hits[i].t * rays[i].d.length()));
+                self.found[group.path[i] as usize].aov = Some(group.aov(i, hit.t * ray.d.length()));
             }
             if !is_last {
                 group.lane[i] = self.lobes.push(group.number[i], vector(&group.wo, i), params);
@@ -213,10 +212,11 @@ impl<'a> Wave<'a> {
                 }
             }
         }
-        for (ray, (path, light)) in shadows.rays.iter().zip(&shadows.light) {
-            if !self.scene.world.occluded(ray) {
-                let path = &self.paths[*path as usize];
-                path.add(*light, path.kind.then(false), &mut self.found[path.number as usize]);
+        self.scene.world.occluded_all(&shadows.rays, &mut self.caster, &mut shadows.occluded);
+        for (occluded, (path, light)) in shadows.occluded.iter().zip(&shadows.light) {
+            if !occluded {
+                let (path, found) = (&self.paths[*path as usize], &mut self.found[*path as usize]);
+                path.add(*light, path.kind.then(false), found);
             }
         }
     }
@@ -229,7 +229,7 @@ impl<'a> Wave<'a> {
             }
         }
         self.lobes.draw();
-        self.next.clear();
+        self.of.clear();
         self.rays.clear();
         for group in &mut self.groups[..self.used] {
             for i in places(group.alive) {
@@ -244,31 +244,15 @@ impl<'a> Wave<'a> {
                 }
                 let path = &mut self.paths[group.path[i] as usize];
                 if bounce == 0 {
-                    self.found[path.number as usize].set_albedo(weight);
+                    self.found[group.path[i] as usize].set_albedo(weight);
                 }
                 path.scatter(weight, group.eta_scale(i), delta);
                 if path.survives(bounce, group.u_roulette(i), &self.limits) {
                     path.last = Last { receiver: group.receiver(i), pdf, only: delta };
-                    self.next.push(*path);
+                    self.of.push(group.path[i]);
                     self.rays.push(Ray::new(vector(&group.origin, i), vector(&group.wi, i)));
                 }
             }
         }
-        std::mem::swap(&mut self.paths, &mut self.next);
-    }
-}
-
-impl Default for Arrivals {
-    fn default() -> Self {
-        let ray = Ray::new(Vec3::ZERO, Vec3::Z);
-        Arrivals { len: 0, paths: [0; SURFACES], rays: [ray; SURFACES], hits: [Hit::default(); SURFACES] }
-    }
-}
-
-impl Arrivals {
-    #[inline]
-    fn add(&mut self, path: usize, ray: Ray, hit: Hit) {
-        (self.paths[self.len], self.rays[self.len], self.hits[self.len]) = (path as u32, ray, hit);
-        self.len += 1;
     }
 }

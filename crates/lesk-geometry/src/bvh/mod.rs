@@ -9,6 +9,8 @@ mod simd;
 mod traverse;
 mod tree;
 mod triangle;
+#[cfg(target_arch = "x86_64")]
+mod turns;
 mod world;
 
-pub use world::{World, WorldBuilder};
+pub use world::{Caster, World, WorldBuilder};

@@ -9,7 +9,7 @@ use core::mem::MaybeUninit;
 const ROUNDING: f32 = 5.960_464_5e-8;
 
 /// Seven children wait per level, eight at the last one.
-const STACK: usize = 7 * MAX_DEPTH + 8;
+pub(super) const STACK: usize = 7 * MAX_DEPTH + 8;
 
 /// The nearest hit so far. `source` and `id` order hits of equal distance, so that the result does not depend on the
 /// order of the walk.
@@ -45,6 +45,9 @@ pub(super) struct LocalRay {
 }
 
 impl LocalRay {
+    /// Stands for what is no ray.
+    pub const SOME: LocalRay = LocalRay { o: [0.0; 3], d: [1.0; 3], t_min: 0.0 };
+
     /// Whether origin and direction are finite, the direction is not zero and its length leaves room for squares.
     #[inline(always)]
     pub fn is_usable(&self) -> bool {
@@ -70,31 +73,33 @@ fn largest(v: &[f32; 3]) -> f32 {
 /// What the box test precomputes per ray: `t = bound * inverse + add`, with `add` moved outward by more than the
 /// rounding errors of this test and of the triangle test, so that no box is missed that holds a triangle reported as
 /// hit. That costs nothing per box (compare Ize, *Robust BVH Ray Traversal*, JCGT 2013, which scales every distance).
+/// The fourth numbers mean nothing.
 #[derive(Clone, Copy, Debug)]
+#[repr(C)]
 pub(super) struct Slabs {
-    inverse: [f32; 3],
-    near_add: [f32; 3],
-    far_add: [f32; 3],
-    near_row: [usize; 3],
+    inverse: [f32; 4],
+    near_add: [f32; 4],
+    far_add: [f32; 4],
+    /// Rows of the bounds that are met first, below 6; those met last are the same with the last bit flipped.
+    near_row: [u32; 3],
 }
 
 impl Slabs {
     #[inline(always)]
     pub fn new(ray: &LocalRay, reach: f32) -> Self {
-        let least = largest(&ray.d) * 1e-18;
-        let far_away = largest(&ray.o);
         // (b - o) / d errs by 4 roundings of |b| + |o|, the sheared corner of a triangle by 5: 16 cover their sum
-        let pad = 16.0 * ROUNDING * (reach + far_away);
-        let mut s = Slabs { inverse: [0.0; 3], near_add: [0.0; 3], far_add: [0.0; 3], near_row: [0; 3] };
+        let pad = 16.0 * ROUNDING * (reach + largest(&ray.o));
+        // a component of 0 becomes one too small to matter, so that no product is 0 * infinity
+        let least = largest(&ray.d) * 1e-18;
+        let mut s = Slabs { inverse: [0.0; 4], near_add: [0.0; 4], far_add: [0.0; 4], near_row: [0; 3] };
         for k in 0..3 {
-            // a component of 0 becomes one too small to matter, so that no product is 0 * infinity
             let d = larger(ray.d[k].abs(), least).copysign(ray.d[k]);
             let inverse = 1.0 / d;
             let add = -ray.o[k] * inverse;
             s.inverse[k] = inverse;
             s.near_add[k] = add - pad * inverse.abs();
             s.far_add[k] = add + pad * inverse.abs();
-            s.near_row[k] = 2 * k + (d < 0.0) as usize;
+            s.near_row[k] = 2 * k as u32 + u32::from(d < 0.0);
         }
         s
     }
@@ -125,8 +130,8 @@ impl BoxTest for Portable {
         for half in 0..2 {
             let (mut near, mut far) = (F4::splat(t_min), F4::splat(t_max));
             for k in 0..3 {
-                let row = |r: usize| {
-                    let b = &node.bounds[r];
+                let row = |r: u32| {
+                    let b = &node.bounds[r as usize];
                     F4::load(&[b[4 * half], b[4 * half + 1], b[4 * half + 2], b[4 * half + 3]])
                 };
                 let inverse = F4::splat(s.inverse[k]);
@@ -151,14 +156,14 @@ pub(super) mod avx2 {
         inverse: [__m256; 3],
         near_add: [__m256; 3],
         far_add: [__m256; 3],
-        near_row: [usize; 3],
+        near_row: [u32; 3],
     }
 
     impl BoxTest for Wide {
         #[inline(always)]
         fn new(s: &Slabs) -> Self {
             // SAFETY: the caller runs with AVX2 (see the type)
-            let splat = |v: [f32; 3]| unsafe { [_mm256_set1_ps(v[0]), _mm256_set1_ps(v[1]), _mm256_set1_ps(v[2])] };
+            let splat = |v: [f32; 4]| unsafe { [_mm256_set1_ps(v[0]), _mm256_set1_ps(v[1]), _mm256_set1_ps(v[2])] };
             Wide {
                 inverse: splat(s.inverse),
                 near_add: splat(s.near_add),
@@ -169,19 +174,31 @@ pub(super) mod avx2 {
 
         #[inline(always)]
         fn boxes(&self, node: &Node, t_min: f32, t_max: f32) -> (u32, [f32; 8]) {
+            let (enter, leave) = self.spans(node, t_min, t_max);
             let mut entry = [0.0f32; 8];
-            // SAFETY: rows are below 6 by construction, nodes are aligned to 64 bytes, and the caller runs with AVX2
+            // SAFETY: the caller runs with AVX2
             let mask = unsafe {
-                let row = |r: usize| _mm256_load_ps(node.bounds.get_unchecked(r).as_ptr());
+                _mm256_storeu_ps(entry.as_mut_ptr(), enter);
+                _mm256_movemask_ps(_mm256_cmp_ps::<_CMP_LE_OQ>(enter, leave)) as u32
+            };
+            (mask, entry)
+        }
+    }
+
+    impl Wide {
+        /// Where each box is entered and left: one that is missed is left before it is entered.
+        #[inline(always)]
+        pub fn spans(&self, node: &Node, t_min: f32, t_max: f32) -> (__m256, __m256) {
+            // SAFETY: rows are below 6 by construction, nodes are aligned to 64 bytes, and the caller runs with AVX2
+            unsafe {
+                let row = |r: u32| _mm256_load_ps(node.bounds.get_unchecked(r as usize).as_ptr());
                 let near = |k: usize| _mm256_fmadd_ps(row(self.near_row[k]), self.inverse[k], self.near_add[k]);
                 let far = |k: usize| _mm256_fmadd_ps(row(self.near_row[k] ^ 1), self.inverse[k], self.far_add[k]);
                 let enter =
                     _mm256_max_ps(_mm256_max_ps(near(0), near(1)), _mm256_max_ps(near(2), _mm256_set1_ps(t_min)));
                 let leave = _mm256_min_ps(_mm256_min_ps(far(0), far(1)), _mm256_min_ps(far(2), _mm256_set1_ps(t_max)));
-                _mm256_storeu_ps(entry.as_mut_ptr(), enter);
-                _mm256_movemask_ps(_mm256_cmp_ps::<_CMP_LE_OQ>(enter, leave)) as u32
-            };
-            (mask, entry)
+                (enter, leave)
+            }
         }
     }
 }
@@ -285,16 +302,16 @@ pub(super) fn walk<B: BoxTest, O: Others, const ANY: bool>(
             for index in first..first + count {
                 // SAFETY: as above
                 let block = unsafe { blocks.get_unchecked(index) };
-                let lanes = intersect(block, &shear, t_min, limit);
-                let mut mask = lanes.mask;
+                let lanes = intersect::<true>(block, &shear, t_min, limit);
+                let (mut mask, t) = (lanes.mask, lanes.t.to_array());
                 while mask != 0 {
                     let lane = (mask.trailing_zeros() & 3) as usize;
                     mask &= mask - 1;
-                    if best.is_beaten_by(lanes.t[lane], source, block.id[lane]) {
+                    if best.is_beaten_by(t[lane], source, block.id[lane]) {
                         if ANY {
                             return true;
                         }
-                        (best.t, best.source, best.id) = (lanes.t[lane], source, block.id[lane]);
+                        (best.t, best.source, best.id) = (t[lane], source, block.id[lane]);
                         limit = best.t;
                         found = Some((index, lane));
                         improved = true;

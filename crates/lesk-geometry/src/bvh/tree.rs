@@ -44,6 +44,8 @@ pub(super) struct Child(pub u32);
 impl Child {
     const TRIANGLES: u32 = 1 << 31;
     const OTHER: u32 = 3 << 30;
+    /// No child: numbers of other things are smaller.
+    pub const END: Self = Child(u32::MAX);
     /// How many numbers of nodes, blocks or other things there are.
     pub const LIMIT: usize = 1 << 28;
 
@@ -65,6 +67,12 @@ impl Child {
         self.0 < Self::TRIANGLES
     }
 
+    /// Whether it is neither a node nor the end.
+    #[inline(always)]
+    pub fn is_leaf(self) -> bool {
+        !self.is_node() & (self != Child::END)
+    }
+
     #[inline(always)]
     pub fn is_other(self) -> bool {
         self.0 >= Self::OTHER
@@ -74,6 +82,12 @@ impl Child {
     #[inline(always)]
     pub fn block_range(self) -> (usize, usize) {
         ((self.0 & 0x0fff_ffff) as usize, (self.0 >> 28 & 3) as usize + 1)
+    }
+
+    /// The blocks of a leaf without the first of several.
+    #[inline(always)]
+    pub fn next_block(self) -> Self {
+        Child(self.0.wrapping_add(1).wrapping_sub(1 << 28))
     }
 
     #[inline(always)]

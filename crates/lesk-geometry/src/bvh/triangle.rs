@@ -24,33 +24,38 @@ impl Block {
 /// direction to it.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Shear {
-    kx: usize,
-    ky: usize,
-    kz: usize,
-    sx: f32,
-    sy: f32,
-    sz: f32,
-    o: [f32; 3],
+    /// Shear of x and y, scale of z.
+    pub s: [f32; 3],
+    /// The origin along kx, ky, kz.
+    pub o: [f32; 3],
+    /// The axes kx, ky, kz, each below 3.
+    k: [u8; 3],
 }
 
 impl Shear {
     #[inline(always)]
     pub fn new(o: [f32; 3], d: [f32; 3]) -> Self {
-        let [x, y, z] = d.map(f32::abs);
-        let (longest, k) = if x > y { (x, 0) } else { (y, 1) };
-        let kz = if longest > z { k } else { 2 };
-        // the winding does not matter: both sides are hit
-        let kx = if kz == 2 { 0 } else { kz + 1 };
-        let ky = if kx == 2 { 0 } else { kx + 1 };
+        let axes @ [kx, ky, kz] = AXES[longest(d)].map(usize::from);
         let sz = 1.0 / d[kz];
-        Shear { kx, ky, kz, sx: d[kx] * sz, sy: d[ky] * sz, sz, o }
+        Shear { s: [d[kx] * sz, d[ky] * sz, sz], o: axes.map(|k| o[k]), k: axes.map(|k| k as u8) }
     }
+}
+
+/// kx, ky, kz by kz; the winding does not matter: both sides are hit. A table, since no processor foresees which.
+const AXES: [[u8; 3]; 3] = [[1, 2, 0], [2, 0, 1], [0, 1, 2]];
+
+/// The axis along which a direction is longest.
+#[inline(always)]
+fn longest(d: [f32; 3]) -> usize {
+    let [x, y, z] = d.map(f32::abs);
+    let (longest, k) = if x > y { (x, 0) } else { (y, 1) };
+    if longest > z { k } else { 2 }
 }
 
 /// The lanes that the ray's line meets, with their parameter.
 pub(super) struct Lanes {
     pub mask: u32,
-    pub t: [f32; 4],
+    pub t: F4,
 }
 
 /// Edge functions U, V, W and sheared z of the three corners, per lane.
@@ -63,33 +68,35 @@ struct Edges {
 
 #[inline(always)]
 fn edges(block: &Block, ray: &Shear) -> Edges {
-    let (sx, sy) = (F4::splat(ray.sx), F4::splat(ray.sy));
-    let o = [ray.kx, ray.ky, ray.kz].map(|k| F4::splat(ray.o[k]));
+    let (sx, sy, o) = (F4::splat(ray.s[0]), F4::splat(ray.s[1]), ray.o.map(F4::splat));
+    let [kx, ky, kz] = ray.k;
     let corner = |i: usize| {
-        let row = |k: usize| F4::load(&block.corners[3 * i + k]);
-        let z = row(ray.kz) - o[2];
-        (row(ray.kx) - o[0] - sx * z, row(ray.ky) - o[1] - sy * z, z)
+        // SAFETY: axes are below 3
+        let row = |k: u8| F4::load(unsafe { block.corners.get_unchecked(3 * i + k as usize) });
+        let z = row(kz) - o[2];
+        (row(kx) - o[0] - sx * z, row(ky) - o[1] - sy * z, z)
     };
     let ((ax, ay, az), (bx, by, bz), (cx, cy, cz)) = (corner(0), corner(1), corner(2));
     Edges { u: cx * by - cy * bx, v: ax * cy - ay * cx, w: bx * ay - by * ax, z: [az, bz, cz] }
 }
 
-/// Tests four triangles; hits have `t_min < t <= t_max`.
+/// Tests four triangles; hits have `t_min < t <= t_max`. `FORESEES` is for rays on their own: a processor that foresees a
+/// miss goes on before it is certain.
 #[inline(always)]
-pub(super) fn intersect(block: &Block, ray: &Shear, t_min: f32, t_max: f32) -> Lanes {
+pub(super) fn intersect<const FORESEES: bool>(block: &Block, ray: &Shear, t_min: f32, t_max: f32) -> Lanes {
     let e = edges(block, ray);
     let zero = F4::splat(0.0);
     // all of one sign: the smallest is not negative, or the largest is not positive; NaN lanes fail both
     let lowest = e.u.min(e.v).min(e.w);
     let highest = e.u.max(e.v).max(e.w);
     let mask = zero.le(lowest) | highest.le(zero);
-    if mask == 0 {
-        return Lanes { mask, t: [0.0; 4] };
+    if FORESEES && mask == 0 {
+        return Lanes { mask, t: zero };
     }
     let det = e.u + e.v + e.w;
-    let t = (e.u * e.z[0] + e.v * e.z[1] + e.w * e.z[2]) * F4::splat(ray.sz) / det;
+    let t = (e.u * e.z[0] + e.v * e.z[1] + e.w * e.z[2]) * F4::splat(ray.s[2]) / det;
     let valid = F4::splat(t_min).lt(t) & t.le(F4::splat(t_max));
-    Lanes { mask: mask & valid, t: t.to_array() }
+    Lanes { mask: mask & valid, t }
 }
 
 /// Barycentric weights of the second and third corner in one lane.

@@ -3,6 +3,8 @@
 use super::build::{Item, Items, build};
 use super::traverse::{Best, LocalRay, NoOthers, Others, Portable, walk};
 use super::tree::Tree;
+#[cfg(target_arch = "x86_64")]
+use super::turns::{TURNS, Turns};
 use crate::bounds::Bounds;
 use crate::detail::Detail;
 use crate::error::{Error, Result};
@@ -220,6 +222,13 @@ pub struct World {
     isa: Isa,
 }
 
+/// Room for the work of casting many rays at once.
+#[derive(Default)]
+pub struct Caster {
+    #[cfg(target_arch = "x86_64")]
+    turns: Option<Turns>,
+}
+
 /// `source` of hits in the world tree; an instance has its number plus one.
 const UPPER: u32 = 0;
 
@@ -237,15 +246,51 @@ impl World {
         self.cast::<true>(ray, &mut Best::none(ray.t_max))
     }
 
+    /// The nearest surface along each ray, as [`intersect`](Self::intersect) finds it.
+    pub fn intersect_all(&self, rays: &[Ray], caster: &mut Caster, hits: &mut Vec<Option<Hit>>) {
+        hits.clear();
+        #[cfg(target_arch = "x86_64")]
+        if self.isa == Isa::Avx512 {
+            for rays in rays.chunks(TURNS) {
+                let turns = self.take_turns::<false>(rays, caster);
+                let hit = |i: usize| turns.best(&self.upper, i).map(|best| self.hit(&best));
+                hits.extend((0..rays.len()).map(hit));
+            }
+            return;
+        }
+        hits.extend(rays.iter().map(|ray| self.intersect(ray)));
+    }
+
+    /// Whether anything lies on each ray, as [`occluded`](Self::occluded) finds it.
+    pub fn occluded_all(&self, rays: &[Ray], caster: &mut Caster, occluded: &mut Vec<bool>) {
+        occluded.clear();
+        #[cfg(target_arch = "x86_64")]
+        if self.isa == Isa::Avx512 {
+            for rays in rays.chunks(TURNS) {
+                let turns = self.take_turns::<true>(rays, caster);
+                occluded.extend((0..rays.len()).map(|i| turns.is_improved(i)));
+            }
+            return;
+        }
+        occluded.extend(rays.iter().map(|ray| self.occluded(ray)));
+    }
+
+    #[cfg(target_arch = "x86_64")]
+    fn take_turns<'a, const ANY: bool>(&self, rays: &[Ray], caster: &'a mut Caster) -> &'a Turns {
+        let visit = |i: usize, index: u32, best: &mut Best| {
+            let ray = &rays[i];
+            Entered::<ANY> { world: self, ray, t_min: first_t(ray) }.visit(index, best)
+        };
+        let turns = caster.turns.get_or_insert_with(Turns::new);
+        // SAFETY: `isa` is available
+        unsafe { turns.walk::<ANY>(&self.upper, rays.iter().map(|ray| (usable(ray), ray.t_max)), &visit) };
+        turns
+    }
+
     #[inline(always)]
     fn cast<const ANY: bool>(&self, ray: &Ray, best: &mut Best) -> bool {
-        // a `t_min` that is negative or no number counts as 0
-        let t_min = if ray.t_min > 0.0 { ray.t_min } else { 0.0 };
-        let local = local_ray(ray.o, ray.d, t_min);
-        if !(t_min < ray.t_max && local.is_usable()) {
-            return false;
-        }
-        let entered = Entered { world: self, ray, t_min };
+        let Some(local) = usable(ray) else { return false };
+        let entered = Entered { world: self, ray, t_min: local.t_min };
         self.walk::<Entered<'_, ANY>, ANY>(&self.upper, &local, UPPER, &entered, best)
     }
 
@@ -401,6 +446,19 @@ impl<const ANY: bool> Others for Entered<'_, ANY> {
         *best = Best { t, source, id: prim, uv: [0.0; 2], slot: 0 };
         true
     }
+}
+
+/// Where a ray begins: a `t_min` that is negative or no number counts as 0.
+#[inline(always)]
+fn first_t(ray: &Ray) -> f32 {
+    if ray.t_min > 0.0 { ray.t_min } else { 0.0 }
+}
+
+/// The ray, where it can meet something.
+#[inline(always)]
+fn usable(ray: &Ray) -> Option<LocalRay> {
+    let local = local_ray(ray.o, ray.d, first_t(ray));
+    (local.t_min < ray.t_max && local.is_usable()).then_some(local)
 }
 
 fn local_ray(o: Vec3<f32>, d: Vec3<f32>, t_min: f32) -> LocalRay {

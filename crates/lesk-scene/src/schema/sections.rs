@@ -69,7 +69,7 @@ pub(crate) const RENDER: &[Field] = &[
     field(
         "roulette_depth",
         Kind::Integer([0, 4096]),
-        "Scattering events after which a path may end by Russian roulette; 4 where absent.",
+        "Scattering events after which a path may end by Russian roulette; 3 where absent.",
     ),
     field("seed", Kind::Integer([0, i64::MAX]), "Seed of the random numbers; 0 where absent."),
     field(
