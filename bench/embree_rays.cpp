@@ -71,6 +71,18 @@ static RTCRayHit ray(const float* r) {
     return out;
 }
 
+// sixteen rays as a packet
+static RTCRayHit16 packet(const float* rays) {
+    RTCRayHit16 out{};
+    for (int k = 0; k < 16; k++, rays += 6) {
+        out.ray.org_x[k] = rays[0], out.ray.org_y[k] = rays[1], out.ray.org_z[k] = rays[2];
+        out.ray.dir_x[k] = rays[3], out.ray.dir_y[k] = rays[4], out.ray.dir_z[k] = rays[5];
+        out.ray.tfar[k] = INFINITY, out.ray.mask[k] = unsigned(-1);
+        out.hit.geomID[k] = out.hit.instID[0][k] = RTC_INVALID_GEOMETRY_ID;
+    }
+    return out;
+}
+
 template <class F>
 static void rate(const string& what, size_t n, F run) {
     vector<double> seconds;
@@ -122,6 +134,22 @@ int main(int count, char** arguments) {
                     RTCRayHit hit = ray(&rays[6 * i]);
                     rtcOccluded1(scene, &context, &hit.ray);
                     t[i] = hit.ray.tfar;
+                }
+            });
+            alignas(64) const int all[16] = {-1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1};
+            const size_t whole = n / 16 * 16;
+            rate(name + " nearest16", whole, [&] {
+                for (size_t i = 0; i < whole; i += 16) {
+                    RTCRayHit16 hit = packet(&rays[6 * i]);
+                    rtcIntersect16(all, scene, &context, &hit);
+                    for (size_t k = 0; k < 16; k++) t[i + k] = hit.ray.tfar[k];
+                }
+            });
+            rate(name + " any16", whole, [&] {
+                for (size_t i = 0; i < whole; i += 16) {
+                    RTCRayHit16 hit = packet(&rays[6 * i]);
+                    rtcOccluded16(all, scene, &context, &hit.ray);
+                    for (size_t k = 0; k < 16; k++) t[i + k] = hit.ray.tfar[k];
                 }
             });
             printf("%s disagree %zu\n", name.c_str(), disagree);

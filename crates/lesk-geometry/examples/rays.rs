@@ -1,11 +1,12 @@
-//! Rays per second on noise-displaced spheres of 82 thousand and 1.3 million triangles, one thread.
+//! Rays per second on noise-displaced spheres of 82 thousand and 1.3 million triangles, one thread: each ray alone, and 256
+//! at once.
 //!
 //! `cargo run --release -p lesk-geometry --example rays [DIR]`: with a folder, meshes, rays and distances are also
 //! written there, as plain little-endian numbers for other ray casters to read: `mesh_M.bin` (u32 vertex count, u32
 //! triangle count, f32 positions, u32 indices), `rays_M_K.bin` (u32 count, f32 origin and direction each) and
 //! `t_M_K.bin` (f32 distance each, infinite for a miss).
 
-use lesk_geometry::{Geometry, Mesh, MeshData, Ray, Transform, World, WorldBuilder, icosphere};
+use lesk_geometry::{Caster, Geometry, Mesh, MeshData, Ray, Transform, World, WorldBuilder, icosphere};
 use lesk_math::{Frame, Isa, Vec3, vec3};
 use std::path::Path;
 use std::sync::Arc;
@@ -77,14 +78,17 @@ fn now(start: &Instant) -> f64 {
     nanoseconds.map_or_else(|| start.elapsed().as_secs_f64(), |ns| ns * 1e-9)
 }
 
-/// Median and best millions of rays per second of seven runs.
-fn rate(rays: &[Ray], mut cast: impl FnMut(&Ray) -> bool) -> (f64, f64, usize) {
+/// How many rays are cast at once: those of a wave of the path tracer.
+const TOGETHER: usize = 256;
+
+/// Median and best millions of rays per second of seven runs; `cast` gives the number of hits.
+fn rate(rays: &[Ray], mut cast: impl FnMut(&[Ray]) -> usize) -> (f64, f64, usize) {
     let mut seconds = Vec::new();
     let mut hits = 0;
     let zero = Instant::now();
     for _ in 0..7 {
         let start = now(&zero);
-        hits = rays.iter().filter(|r| cast(r)).count();
+        hits = rays.chunks(TOGETHER).map(&mut cast).sum();
         seconds.push(now(&zero) - start);
     }
     seconds.sort_by(f64::total_cmp);
@@ -128,11 +132,25 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         let primary = primary_rays();
         let bounce = bounce_rays(&world, &primary);
         for (kind, rays) in [("primary", &primary), ("bounce", &bounce)] {
-            let (median, best, hits) = rate(rays, |r| world.intersect(r).is_some());
-            let share = 100 * hits / rays.len();
-            println!("  {kind:8} nearest {median:6.2} (best {best:.2}) Mrays/s, {share} % hit");
-            let (median, best, _) = rate(rays, |r| world.occluded(r));
-            println!("  {kind:8} any     {median:6.2} (best {best:.2}) Mrays/s");
+            let (mut caster, mut found, mut occluded) = (Caster::default(), vec![], vec![]);
+            let alone = rate(rays, |rays| rays.iter().filter(|r| world.intersect(r).is_some()).count());
+            let together = rate(rays, |rays| {
+                world.intersect_all(rays, &mut caster, &mut found);
+                found.iter().flatten().count()
+            });
+            let alone_any = rate(rays, |rays| rays.iter().filter(|r| world.occluded(r)).count());
+            let together_any = rate(rays, |rays| {
+                world.occluded_all(rays, &mut caster, &mut occluded);
+                occluded.iter().filter(|is| **is).count()
+            });
+            let share = 100 * alone.2 / rays.len();
+            println!("  {kind}: {share} % hit; Mrays/s");
+            for (query, (median, best, hits)) in
+                [("nearest alone", alone), ("nearest", together), ("any alone", alone_any), ("any", together_any)]
+            {
+                assert_eq!(hits, alone.2, "{kind} {query}");
+                println!("    {query:13} {median:6.2} (best {best:.2})");
+            }
             if let Some(folder) = &folder {
                 write_rays(Path::new(folder), &format!("{name}_{kind}"), &world, rays)?;
             }

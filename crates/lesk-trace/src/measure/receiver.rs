@@ -1,6 +1,6 @@
 //! One sample of one reading: the lights asked directly, and a path for everything else.
 
-use crate::path::power_heuristic;
+use crate::path::{Found, power_heuristic};
 use crate::wave::Wave;
 use lesk_geometry::{Ray, Surface};
 use lesk_light::Receiver;
@@ -120,27 +120,8 @@ impl Meter {
         Meter::Illuminance { surface, receiver, weights: Weights::new(response) }
     }
 
-    /// The direct and all other light of samples, added up; each sample has the random numbers of one sampler.
-    pub fn sum(&self, wave: &mut Wave, samplers: impl Iterator<Item = Sampler>) -> [f64; 2] {
-        let starts: Vec<Start> = samplers.map(|sampler| self.start(wave, sampler)).collect();
-        let found = wave.follow();
-        let mut sum = [0.0; 2];
-        for start in starts {
-            let (direct, all) = match start.path {
-                Some((number, weight)) => {
-                    let found = &found[number];
-                    let of = |light: Color<f32>| f64::from(light.luminance()) * weight;
-                    (start.asked + of(found.splits[0]), start.asked + of(found.radiance))
-                }
-                None => (start.asked, start.asked),
-            };
-            sum = [sum[0] + direct, sum[1] + (all - direct).max(0.0)];
-        }
-        sum
-    }
-
     /// Begins a sample: asks the lights, and adds to the wave the path that looks for everything else.
-    fn start(&self, wave: &mut Wave, mut sampler: Sampler) -> Start {
+    pub fn start(&self, wave: &mut Wave, mut sampler: Sampler) -> Start {
         let number = wave.len();
         match self {
             Meter::Nothing => Start { asked: 0.0, path: None },
@@ -167,11 +148,22 @@ impl Meter {
 }
 
 /// A sample whose path waits to be followed.
-struct Start {
+pub(super) struct Start {
     /// Light of the lights that were asked, lx.
     asked: f64,
     /// The number of the path in the wave, and how much of its light counts.
     path: Option<(usize, f64)>,
+}
+
+impl Start {
+    /// Direct and all other light of the sample, by what the paths of its wave found.
+    pub fn light(&self, found: &[Found]) -> [f64; 2] {
+        let Some((number, weight)) = self.path else { return [self.asked, 0.0] };
+        let found = &found[number];
+        let of = |light: Color<f32>| f64::from(light.luminance()) * weight;
+        let (direct, all) = (self.asked + of(found.splits[0]), self.asked + of(found.radiance));
+        [direct, (all - direct).max(0.0)]
+    }
 }
 
 /// Light of one light that was chosen for this sample.

@@ -1,6 +1,6 @@
 //! Rounds of samples, until every reading has the wished error.
 
-use super::receiver::Meter;
+use super::receiver::{Meter, Start};
 use super::{REPLICATES, Reading, Settings};
 use crate::render::End;
 use crate::wave::{WAVE, Wave};
@@ -106,9 +106,8 @@ impl<'a> Batch<'a> {
             if stop.load(Ordering::Relaxed) || late.load(Ordering::Relaxed) {
                 return;
             }
-            let mut wave = Wave::new(self.scene, self.settings.limits());
-            for (sum, &(i, k)) in sums.iter_mut().zip(tasks) {
-                *sum = Some(self.sequence(i, k, most, &mut wave));
+            for (sum, new) in sums.iter_mut().zip(self.sequences(tasks, most)) {
+                *sum = Some(new);
             }
             let done = done.fetch_add(tasks.len() as u64, Ordering::Relaxed) + tasks.len() as u64;
             let share = before + work * done as f64 / (active.len() * REPLICATES) as f64;
@@ -137,22 +136,34 @@ impl<'a> Batch<'a> {
         (done / total, round / total)
     }
 
-    /// What one round adds to sequence `k` of reading `i`.
-    fn sequence(&self, i: usize, k: usize, most: u32, wave: &mut Wave) -> [f64; 2] {
-        let (settings, state) = (self.settings, &self.meters[i]);
-        let mut sampler = Sampler::new((settings.seed ^ (settings.seed >> 32).wrapping_mul(0x9e37_79b9)) as u32);
-        let number = (self.first + i as u32).wrapping_mul(REPLICATES as u32) + k as u32;
-        let indices: Vec<u32> = (state.count..next_count(state.count, most)).collect();
-        let mut sum = [0.0; 2];
-        for indices in indices.chunks(WAVE) {
-            let samplers = indices.iter().map(|index| {
+    /// What one round adds to some sequences, each given by its reading and its number there. Their samples share waves:
+    /// in the first rounds a sequence has only a few.
+    fn sequences(&self, sequences: &[(usize, usize)], most: u32) -> Vec<[f64; 2]> {
+        let seed = self.settings.seed;
+        let mut sampler = Sampler::new((seed ^ (seed >> 32).wrapping_mul(0x9e37_79b9)) as u32);
+        let mut wave = Wave::new(self.scene, self.settings.limits());
+        let indices = |&(i, _): &(usize, usize)| {
+            let count = self.meters[i].count;
+            count..next_count(count, most)
+        };
+        let samples: Vec<(usize, u32)> =
+            sequences.iter().enumerate().flat_map(|(s, of)| indices(of).map(move |index| (s, index))).collect();
+        let mut sums = vec![[0.0; 2]; sequences.len()];
+        for samples in samples.chunks(WAVE) {
+            let mut start = |&(s, index): &(usize, u32)| {
+                let (i, k) = sequences[s];
+                let number = (self.first + i as u32).wrapping_mul(REPLICATES as u32) + k as u32;
                 sampler.start(number, index + first_index(k));
-                sampler
-            });
-            let [direct, other] = state.meter.sum(wave, samplers);
-            sum = [sum[0] + direct, sum[1] + other];
+                (s, self.meters[i].meter.start(&mut wave, sampler))
+            };
+            let starts: Vec<(usize, Start)> = samples.iter().map(&mut start).collect();
+            let found = wave.follow();
+            for (s, start) in starts {
+                let [direct, other] = start.light(found);
+                sums[s] = [sums[s][0] + direct, sums[s][1] + other];
+            }
         }
-        sum
+        sums
     }
 
     pub fn readings(&self) -> impl Iterator<Item = Reading> + '_ {
