@@ -88,7 +88,11 @@ fn nearest(t: f32, id: u32) -> u64 {
 
 impl Turns {
     pub fn new() -> Turns {
-        Turns { states: Vec::with_capacity(TURNS), stacks: vec![[0; WORDS]; TURNS], others: [Best::none(0.0); TURNS] }
+        Turns {
+            states: Vec::with_capacity(TURNS),
+            stacks: vec![[Child::END.0.into(); WORDS]; TURNS],
+            others: [Best::none(0.0); TURNS],
+        }
     }
 
     /// Finds the nearest hits of up to [`TURNS`] rays, each with its `t_max`, or with `ANY` some hits; `None` meets nothing.
@@ -106,12 +110,14 @@ impl Turns {
     ) {
         self.states.clear();
         let (mut at_nodes, mut at_leaves) = (List::new(), List::new());
+        let stacks = self.stacks.as_mut_ptr();
         for (i, (ray, t_max)) in rays.take(TURNS).enumerate() {
-            // SAFETY: every ray is added once
-            unsafe { at_nodes.add_if(ray.is_some() && !tree.nodes.is_empty(), i as u8) };
-            let stack = &mut self.stacks[i];
-            stack[0] = u64::from(Child::END.0);
-            self.states.push(State::new(&ray.unwrap_or(LocalRay::SOME), t_max, tree.reach, stack.as_mut_ptr()));
+            // SAFETY: there are as many stacks as rays at most, and every ray is added once
+            let stack = unsafe {
+                at_nodes.add_if(ray.is_some() && !tree.nodes.is_empty(), i as u8);
+                stacks.add(i).cast::<u64>()
+            };
+            self.states.push(State::new(&ray.unwrap_or(LocalRay::SOME), t_max, tree.reach, stack));
         }
         // SAFETY: both lists together hold the numbers of states, each at most once, so that each has room for one more while
         // a ray is taken out; the builder wrote only numbers of existing nodes and blocks, and its levels bound the stack
@@ -292,16 +298,23 @@ unsafe fn nearest_lane(numbers: __m256i, mask: __mmask8) -> u32 {
 }
 
 /// Brings a child into the cache, which is visited when the other rays have had their turns.
-///
-/// # Safety
-/// None is needed: the processor ignores addresses where nothing is.
 #[inline(always)]
-unsafe fn fetch(tree: &Tree, child: Child) {
+fn fetch(tree: &Tree, child: Child) {
     let node: *const i8 = tree.nodes.as_ptr().wrapping_add(child.0 as usize).cast();
     let block: *const i8 = tree.blocks.as_ptr().wrapping_add(child.block_range().0).cast();
     let start = select_unpredictable(child.is_node(), node, block);
     for line in 0..4 {
-        // SAFETY: as above
+        // SAFETY: every x86-64 has it, and it ignores addresses where nothing is (those of the end)
         unsafe { _mm_prefetch::<_MM_HINT_T0>(start.wrapping_add(64 * line)) };
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_ray_takes_two_cache_lines() {
+        assert_eq!(size_of::<State>(), 128);
     }
 }
