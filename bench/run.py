@@ -19,7 +19,7 @@ from timing import load_average, pin
 ROOT = Path(__file__).resolve().parent.parent
 SECTIONS = {
     "batch": "models through NumPy",
-    "rays": "single rays",
+    "rays": "rays alone and 256 at once",
     "paths": "path tracing",
     "lux": "measuring an office",
     "raster": "rasterising",

@@ -6,8 +6,8 @@ use lesk_math::Vec3;
 
 /// The points `o + t d` for `t_min < t < t_max`.
 ///
-/// `d` need not have unit length; `t` counts in its length. A direction of zero or with an entry that is not finite
-/// hits nothing.
+/// `d` need not have unit length; `t` counts in its length. A direction of zero or with an entry that is not finite hits
+/// nothing, nor does a ray from farther than 1e27 times the length of its direction (less 1e12 m, the largest coordinate).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ray {
     /// Origin, metres.

@@ -319,6 +319,12 @@ fn degenerate_rays_hit_nothing() {
             assert!(world.intersect(&Ray::new(o, vec3(x, 0.0, 1.0))).is_none());
             assert!(!world.occluded(&Ray::new(o, vec3(0.0, x, 1.0))));
         }
+        for (o, d) in
+            [([0.0, 1e27, 0.0], [1.0, 0.0, 0.0]), ([0.0, 1e38, 1e38], [1.0, 1e-10, 1e-10]), ([1e30; 3], [1e-17; 3])]
+        {
+            let ray = Ray::new(Vec3::from(o), Vec3::from(d));
+            assert!(world.intersect(&ray).is_none() && !world.occluded(&ray));
+        }
         assert!(world.intersect(&Ray::new(o, Vec3::ZERO)).is_none());
         let part = |t_min, t_max| world.intersect(&Ray { o, d: z, t_min, t_max }).map(|h| h.t);
         assert_eq!(part(0.0, f32::INFINITY), Some(2.0));
@@ -373,6 +379,10 @@ fn rays_of_all_kinds(count: usize) -> Vec<Ray> {
             // straight at a cube of side 2, a sphere and two disks around (0, 0, -2)
             7 | 8 => ray = Ray::new(vec3(0.0, 0.0, 9.0), -Vec3::Z),
             9 => ray.d = vec3(0.0, -0.0, 1.0),
+            // so far away or so short that no number of the box test is left
+            10 => ray.o = vec3(0.0, 1e27, r.signed() * 1e27),
+            11 => (ray.o, ray.d) = (vec3(0.0, 1e3, 1e3), vec3(2e-18, 0.0, 0.0)),
+            12 => (ray.o, ray.d) = (vec3(1e30, 1e30, 1e30), vec3(1e-17, 1e-17, 1e-17)),
             _ => {}
         }
         ray
@@ -414,6 +424,11 @@ fn hits_at_the_end_of_many_rays_do_not_count() {
         world.occluded_all(&[ray(2.0), ray(2.0f32.next_up())], &mut caster, &mut occluded);
         assert_eq!(hits.iter().map(|hit| hit.map(|hit| hit.t)).collect::<Vec<_>>(), [None, Some(2.0)]);
         assert_eq!(occluded, [false, true]);
+        // a sphere, which is no triangle: t = 2 on its axis
+        let world = world_of(Geometry::Sphere, Transform::IDENTITY, isa);
+        let ray = |t_max| Ray { t_max, ..Ray::new(vec3(0.0, 0.0, -3.0), Vec3::Z) };
+        world.intersect_all(&[ray(2.0), ray(2.0f32.next_up())], &mut caster, &mut hits);
+        assert_eq!(hits.iter().map(|hit| hit.map(|hit| hit.t)).collect::<Vec<_>>(), [None, Some(2.0)]);
     }
 }
 

@@ -141,7 +141,7 @@ pub enum Isa {
     Baseline,
     /// AVX2 with FMA.
     Avx2,
-    /// AVX-512 F, VL, BW and DQ.
+    /// AVX-512 F, VL, BW and DQ, with BMI1, BMI2 and POPCNT.
     Avx512,
 }
 

@@ -147,7 +147,7 @@ impl Path {
         if bounce + 1 < limits.roulette_depth {
             return true;
         }
-        // twice the throughput: measured best for diffuse and for glossy scenes (docs/decisions/0007)
+        // twice the throughput: good for diffuse and for glossy scenes (docs/decisions/0007)
         let q = (2.0 * strongest * self.eta_scale).min(0.95);
         if u >= q {
             return false;

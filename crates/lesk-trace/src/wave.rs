@@ -1,7 +1,7 @@
 //! Many paths side by side: all of them look for their next surface, then all ask the lights, then all go on.
 //!
 //! What one path finds does not depend on the others. Together they let surfaces, lights, random numbers and models be
-//! computed by loops over arrays; rays are cast one by one.
+//! computed by loops over arrays; rays take turns.
 
 use crate::group::{Group, places};
 use crate::lobes::Lobes;
@@ -95,8 +95,9 @@ impl<'a> Wave<'a> {
 
     /// Follows all paths to their ends; what each found, in the order in which they were added.
     pub fn follow(&mut self) -> &[Found] {
-        self.found.clear();
-        self.found.resize(self.paths.len(), Found::NOTHING);
+        let count = self.paths.len();
+        self.found.resize(self.found.len().max(count), Found::NOTHING);
+        self.found[..count].iter_mut().for_each(|found| *found = Found::NOTHING);
         for bounce in 0.. {
             if self.rays.is_empty() {
                 break;
@@ -107,7 +108,7 @@ impl<'a> Wave<'a> {
             self.go_on(bounce);
         }
         self.paths.clear();
-        &self.found
+        &self.found[..count]
     }
 
     /// Adds what shines where the rays end, and makes the vertices of the paths that go on.

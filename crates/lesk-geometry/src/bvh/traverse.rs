@@ -3,6 +3,7 @@
 use super::simd::F4;
 use super::tree::{Child, LANES, MAX_DEPTH, Node, Tree};
 use super::triangle::{Shear, barycentric, intersect};
+use crate::mesh::MAX_COORDINATE;
 use core::mem::MaybeUninit;
 
 /// Half a unit in the last place of 1.
@@ -45,20 +46,19 @@ pub(super) struct LocalRay {
 }
 
 impl LocalRay {
-    /// Stands for what is no ray.
-    pub const SOME: LocalRay = LocalRay { o: [0.0; 3], d: [1.0; 3], t_min: 0.0 };
-
-    /// Whether origin and direction are finite, the direction is not zero and its length leaves room for squares.
+    /// Whether origin and direction are finite, and the way from the origin to anything is at most 1e27 times as long as the
+    /// direction, so that no number of [`Slabs`] overflows.
     #[inline(always)]
     pub fn is_usable(&self) -> bool {
         // sums of absolute values: infinity and NaN survive them
         let size = |v: &[f32; 3]| v[0].abs() + v[1].abs() + v[2].abs();
         let d = size(&self.d);
-        size(&self.o) <= f32::MAX && d <= f32::MAX && d > 1e-18
+        // the right side is finite, so that infinity fails
+        (d <= f32::MAX) & (size(&self.o) + MAX_COORDINATE <= 1e27 * d.min(1e10))
     }
 }
 
-/// The larger number, one instruction: neither is NaN (see [`LocalRay::is_usable`]).
+/// The larger number, one instruction: neither is NaN where the ray is usable.
 #[inline(always)]
 fn larger(a: f32, b: f32) -> f32 {
     if a > b { a } else { b }
@@ -89,8 +89,8 @@ impl Slabs {
     pub fn new(ray: &LocalRay, reach: f32) -> Self {
         // (b - o) / d errs by 4 roundings of |b| + |o|, the sheared corner of a triangle by 5: 16 cover their sum
         let pad = 16.0 * ROUNDING * (reach + largest(&ray.o));
-        // a component of 0 becomes one too small to matter, so that no product is 0 * infinity
-        let least = largest(&ray.d) * 1e-18;
+        // a component of 0 becomes one that is lost in the rounding of the others
+        let least = largest(&ray.d) * 1e-10;
         let mut s = Slabs { inverse: [0.0; 4], near_add: [0.0; 4], far_add: [0.0; 4], near_row: [0; 3] };
         for k in 0..3 {
             let d = larger(ray.d[k].abs(), least).copysign(ray.d[k]);
@@ -318,7 +318,7 @@ pub(super) fn walk<B: BoxTest, O: Others, const ANY: bool>(
                     }
                 }
             }
-        } else if others.visit(current.other_index(), best) {
+        } else if current != Child::END && others.visit(current.other_index(), best) {
             if ANY {
                 return true;
             }

@@ -23,7 +23,7 @@ pub(super) struct Node {
 impl Node {
     pub const EMPTY: Self = {
         let (lo, hi) = ([f32::INFINITY; 8], [f32::NEG_INFINITY; 8]);
-        Node { bounds: [lo, hi, lo, hi, lo, hi], child: [Child::node(0); 8] }
+        Node { bounds: [lo, hi, lo, hi, lo, hi], child: [Child::END; 8] }
     };
 
     pub fn set(&mut self, slot: usize, bounds: &Bounds, child: Child) {
@@ -44,7 +44,7 @@ pub(super) struct Child(pub u32);
 impl Child {
     const TRIANGLES: u32 = 1 << 31;
     const OTHER: u32 = 3 << 30;
-    /// No child: numbers of other things are smaller.
+    /// No child, in empty slots and below everything that waits: numbers of other things are smaller.
     pub const END: Self = Child(u32::MAX);
     /// How many numbers of nodes, blocks or other things there are.
     pub const LIMIT: usize = 1 << 28;
@@ -68,6 +68,7 @@ impl Child {
     }
 
     /// Whether it is neither a node nor the end.
+    #[cfg(target_arch = "x86_64")]
     #[inline(always)]
     pub fn is_leaf(self) -> bool {
         !self.is_node() & (self != Child::END)
@@ -85,6 +86,7 @@ impl Child {
     }
 
     /// The blocks of a leaf without the first of several.
+    #[cfg(target_arch = "x86_64")]
     #[inline(always)]
     pub fn next_block(self) -> Self {
         Child(self.0.wrapping_add(1).wrapping_sub(1 << 28))

@@ -1,8 +1,8 @@
 //! Many rays that take turns on their way through a tree, with AVX-512.
 //!
 //! A ray alone mostly waits: for its own last result, for memory, and for branches that no processor foresees (how many
-//! boxes are met, whether a triangle is hit). Here every ray does one step, then the next ray does, and no branch depends on
-//! what a step finds: stacks are written eight words at once and grow by a count, the nearer of two is selected, and a ray is
+//! boxes are met, whether a triangle is hit). Here every ray does one step, then the next ray does, and hardly a branch
+//! depends on what a step finds: stacks are written eight words at once and grow by a count, the nearer of two is selected, and a ray is
 //! written into the list of those at nodes and of those at leaves, of which one grows. The hits are the same bits as those of
 //! [`walk`](super::traverse::walk).
 
@@ -77,6 +77,11 @@ pub(super) struct Turns {
     others: [Best; TURNS],
 }
 
+// SAFETY: the pointers to stacks are used by `walk` only, which first makes the states anew
+unsafe impl Send for Turns {}
+// SAFETY: as above; `walk` has the only reference
+unsafe impl Sync for Turns {}
+
 /// Stands in [`State::nearest`] for what is no triangle of the tree: of several at the same distance, triangles come first.
 const OTHER: u32 = u32::MAX;
 
@@ -95,9 +100,9 @@ impl Turns {
         }
     }
 
-    /// Finds the nearest hits of up to [`TURNS`] rays, each with its `t_max`, or with `ANY` some hits; `None` meets nothing.
-    /// `visit` improves what a ray, given by its number, met, by something else than the triangles of the tree, and says
-    /// whether it did.
+    /// Finds the nearest hits of up to [`TURNS`] rays, or with `ANY` some hits. Each comes with its `t_max` and with whether
+    /// it can meet something; one that cannot may hold any numbers. `visit` improves what a ray, given by its number, met, by
+    /// something else than the triangles of the tree, and says whether it did.
     ///
     /// # Safety
     /// [`Isa::Avx512`](lesk_math::Isa::Avx512) is available.
@@ -105,19 +110,19 @@ impl Turns {
     pub unsafe fn walk<const ANY: bool>(
         &mut self,
         tree: &Tree,
-        rays: impl Iterator<Item = (Option<LocalRay>, f32)>,
+        rays: impl Iterator<Item = (LocalRay, f32, bool)>,
         visit: &dyn Fn(usize, u32, &mut Best) -> bool,
     ) {
         self.states.clear();
         let (mut at_nodes, mut at_leaves) = (List::new(), List::new());
         let stacks = self.stacks.as_mut_ptr();
-        for (i, (ray, t_max)) in rays.take(TURNS).enumerate() {
+        for (i, (ray, t_max, is_usable)) in rays.take(TURNS).enumerate() {
             // SAFETY: there are as many stacks as rays at most, and every ray is added once
             let stack = unsafe {
-                at_nodes.add_if(ray.is_some() && !tree.nodes.is_empty(), i as u8);
+                at_nodes.add_if(is_usable & !tree.nodes.is_empty(), i as u8);
                 stacks.add(i).cast::<u64>()
             };
-            self.states.push(State::new(&ray.unwrap_or(LocalRay::SOME), t_max, tree.reach, stack));
+            self.states.push(State::new(&ray, t_max, tree.reach, stack));
         }
         // SAFETY: both lists together hold the numbers of states, each at most once, so that each has room for one more while
         // a ray is taken out; the builder wrote only numbers of existing nodes and blocks, and its levels bound the stack
@@ -213,6 +218,7 @@ impl State {
     /// As [`Turns::walk`].
     #[inline(always)]
     unsafe fn visit_node<const ANY: bool>(&mut self, node: &Node) {
+        debug_assert!(self.len as usize <= 1 + STACK);
         let (enter, leave) = Wide::new(&self.slabs).spans(node, self.t_min, self.limit());
         // SAFETY: the instruction set is there, nodes are aligned to 64 bytes, and eight words fit above `len` (see `WORDS`)
         unsafe {

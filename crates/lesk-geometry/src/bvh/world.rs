@@ -258,6 +258,7 @@ impl World {
             }
             return;
         }
+        let _ = caster;
         hits.extend(rays.iter().map(|ray| self.intersect(ray)));
     }
 
@@ -272,6 +273,7 @@ impl World {
             }
             return;
         }
+        let _ = caster;
         occluded.extend(rays.iter().map(|ray| self.occluded(ray)));
     }
 
@@ -281,15 +283,19 @@ impl World {
             let ray = &rays[i];
             Entered::<ANY> { world: self, ray, t_min: first_t(ray) }.visit(index, best)
         };
+        let locals = rays.iter().map(|ray| {
+            let (local, is_usable) = usable(ray);
+            (local, ray.t_max, is_usable)
+        });
         let turns = caster.turns.get_or_insert_with(Turns::new);
         // SAFETY: `isa` is available
-        unsafe { turns.walk::<ANY>(&self.upper, rays.iter().map(|ray| (usable(ray), ray.t_max)), &visit) };
+        unsafe { turns.walk::<ANY>(&self.upper, locals, &visit) };
         turns
     }
 
     #[inline(always)]
     fn cast<const ANY: bool>(&self, ray: &Ray, best: &mut Best) -> bool {
-        let Some(local) = usable(ray) else { return false };
+        let (local, true) = usable(ray) else { return false };
         let entered = Entered { world: self, ray, t_min: local.t_min };
         self.walk::<Entered<'_, ANY>, ANY>(&self.upper, &local, UPPER, &entered, best)
     }
@@ -454,11 +460,11 @@ fn first_t(ray: &Ray) -> f32 {
     if ray.t_min > 0.0 { ray.t_min } else { 0.0 }
 }
 
-/// The ray, where it can meet something.
+/// The ray, and whether it can meet something.
 #[inline(always)]
-fn usable(ray: &Ray) -> Option<LocalRay> {
+fn usable(ray: &Ray) -> (LocalRay, bool) {
     let local = local_ray(ray.o, ray.d, first_t(ray));
-    (local.t_min < ray.t_max && local.is_usable()).then_some(local)
+    (local, (local.t_min < ray.t_max) & local.is_usable())
 }
 
 fn local_ray(o: Vec3<f32>, d: Vec3<f32>, t_min: f32) -> LocalRay {

@@ -17,7 +17,7 @@ use std::time::Instant;
 const FIRST: u32 = 16;
 /// Samples of each sequence after which a reading of 0 counts as dark.
 const DARK: u32 = 1024;
-/// Readings per task of a round: each is 32 sequences.
+/// Sequences per task of a round: a reading is 32.
 const SEQUENCES_PER_TASK: usize = 8;
 
 /// Readings that are worked on at once.
@@ -146,17 +146,17 @@ impl<'a> Batch<'a> {
             let count = self.meters[i].count;
             count..next_count(count, most)
         };
-        let samples: Vec<(usize, u32)> =
-            sequences.iter().enumerate().flat_map(|(s, of)| indices(of).map(move |index| (s, index))).collect();
+        let mut samples =
+            sequences.iter().enumerate().flat_map(|(s, of)| indices(of).map(move |index| (s, index))).peekable();
         let mut sums = vec![[0.0; 2]; sequences.len()];
-        for samples in samples.chunks(WAVE) {
-            let mut start = |&(s, index): &(usize, u32)| {
+        while samples.peek().is_some() {
+            let mut start = |(s, index): (usize, u32)| {
                 let (i, k) = sequences[s];
                 let number = (self.first + i as u32).wrapping_mul(REPLICATES as u32) + k as u32;
                 sampler.start(number, index + first_index(k));
                 (s, self.meters[i].meter.start(&mut wave, sampler))
             };
-            let starts: Vec<(usize, Start)> = samples.iter().map(&mut start).collect();
+            let starts: Vec<(usize, Start)> = samples.by_ref().take(WAVE).map(&mut start).collect();
             let found = wave.follow();
             for (s, start) in starts {
                 let [direct, other] = start.light(found);
